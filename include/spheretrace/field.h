@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The caller's signed distance field: the callbacks, and what is known of them (Lipschitz constant,
+ * convexity, a bounding volume). Ready-made shapes to build callbacks from are in shapes.h.
+ *
+ * WHAT A FIELD MUST BE. f(p) is negative inside and positive outside, and |f(p)| is at most
+ * lipschitz times the distance from p to the surface, on both sides. An exact signed distance has
+ * lipschitz = 1. A field that changes faster than that anywhere is no distance bound: a tracer may
+ * step through its surface. The library cannot prove the promise, but it audits it for free and
+ * sets SPT_FLAG_STEEP on rays that saw it broken (trace.h).
+ *
+ * WHAT DECIDES THE SPEED is how the file that holds the callback is compiled. Write the batch
+ * callback as one loop over the points without branches, mark its arrays restrict, and compile with
+ *     -O3 -fno-math-errno -ffp-contract=off  and a wide -m flag (-mavx2, or -mavx512f with
+ *     -mprefer-vector-width=512)
+ * Without -fno-math-errno nothing that contains sqrtf vectorises (measured: 48 ns an evaluation
+ * instead of 5), and gcc -O2 vectorises few such loops. To ship one program for all machines,
+ * compile the file once for each width and choose by spt_lanes(), the width the library will use.
+ * spt_field_measure() shows whether it worked. */
+#ifndef SPHERETRACE_FIELD_H
+#define SPHERETRACE_FIELD_H
+
+#include "base.h"
+#include "bound.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The most points that one call of a batch callback brings. */
+#define SPT_BATCH 256
+
+/* Signed distance, or a lower bound of it, at n points: distance[i] = f(x[i], y[i], z[i]).
+ *   n         a multiple of 16, 16 <= n <= SPT_BATCH. No mask and no tail: points that stand only
+ *             for padding repeat a real one, and their distances are not read
+ *   x, y, z   64-byte aligned, finite, not overlapping; may be used as scratch space
+ *   distance  64-byte aligned. +infinity is legal and means that nothing is here or beyond. NaN and
+ *             -infinity end the ray with SPT_NONFINITE, and so does a value that is not written
+ * May be called from every thread that traces, may itself trace, and may leave by longjmp or by a
+ * C++ exception: the library holds nothing that would be lost. It must not depend on the place of a
+ * point in the arrays; a callback compiled with -ffast-math does, and gives up the library's
+ * promise of equal bits at every width. */
+typedef void spt_distance_batch_fn(void *user, size_t n, const float *x, const float *y,
+                                   const float *z, float *distance);
+
+/* The same for one point: simple to write, several times slower to trace. */
+typedef float spt_distance_fn(void *user, float x, float y, float z);
+
+enum {
+    /* f is a convex FUNCTION (not only a convex body): the exact distance to a convex body, a
+     * maximum of planes, a norm. Licenses spt_convex(): the secant step and early misses. */
+    SPT_FIELD_CONVEX = 1u << 0
+};
+
+typedef struct spt_field {
+    size_t struct_size;           /* set by spt_field_default() */
+    spt_distance_batch_fn *batch; /* preferred */
+    spt_distance_fn *point;       /* used where batch is NULL; one of the two must be there */
+    void *user;                   /* handed to the callbacks, never read here */
+    float lipschitz;              /* |f(p) - f(q)| <= lipschitz |p - q|. Default 1; from 2^-100 to
+                                   * 2^100. The library divides by it */
+    uint32_t flags;               /* SPT_FIELD_CONVEX or 0 */
+    const spt_bound *bound;       /* a convex volume that contains the whole surface, or NULL. Rays
+                                   * are traced only inside it */
+    const char *glsl;             /* body of float NAME(vec3 p), the same field for a shader, or
+                                   * NULL. Not read when tracing */
+    const char *glsl_prelude;     /* functions which that body needs, or NULL */
+} spt_field;
+
+/* A field without callbacks: lipschitz 1, no flags, no bound. */
+static inline spt_field spt_field_default(void) {
+    spt_field field = {0, NULL, NULL, NULL, 1.0f, 0, NULL, NULL, NULL};
+    field.struct_size = sizeof field;
+    return field;
+}
+
+/* The caller's clock: seconds from any fixed moment, as a process CPU time where there is one. */
+typedef double spt_clock_fn(void *user);
+
+typedef struct spt_field_cost {
+    double nanoseconds_16;  /* per evaluation, called with n = 16 */
+    double nanoseconds_256; /* per evaluation, called with n = SPT_BATCH */
+} spt_field_cost;
+
+/* What one evaluation of a field costs, by the caller's clock, at points spread over its bound
+ * (over [-1, 1]^3 without one). A callback that vectorised costs a fraction of its scalar loop; a
+ * large ratio of the two figures means a heavy fixed cost a call.
+ * Takes about 20 ms. Returns SPT_BAD_ARGUMENT for a bad field or a NULL pointer, SPT_UNSUPPORTED
+ * for a clock that does not advance; cost is written only with SPT_OK. */
+SPT_API spt_status spt_field_measure(const spt_field *field, spt_clock_fn *clock, void *clock_user,
+                                     spt_field_cost *cost);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

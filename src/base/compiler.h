@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The few compiler extensions the library needs outside src/lanes, and the one thing it refuses. */
+#ifndef SPTI_COMPILER_H
+#define SPTI_COMPILER_H
+
+/* Reassociation and "no NaN" would break the equal bits, the rounding floor and the NaN policy. */
+#ifdef __FAST_MATH__
+#error "libspheretrace must not be compiled with -ffast-math"
+#endif
+
+#if defined(__GNUC__)
+#define SPTI_INLINE static inline __attribute__((always_inline))
+#define SPTI_NOINLINE __attribute__((noinline))
+#define SPTI_ALIGNED(bytes) __attribute__((aligned(bytes)))
+#else
+#define SPTI_INLINE static inline
+#define SPTI_NOINLINE
+#define SPTI_ALIGNED(bytes)
+#endif
+
+/* Joins two or three words after expanding them, for the names of kernel instances. */
+#define SPTI_JOIN2(a, b) SPTI_JOIN2_(a, b)
+#define SPTI_JOIN2_(a, b) a##_##b
+#define SPTI_TEXT(a) SPTI_TEXT_(a)
+#define SPTI_TEXT_(a) #a
+
+#endif

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The contract of the lanes: what kernels may do with SPT_LANES floats at once. The arithmetic is
+ * the public simd.h; here are the two operations that only the library needs. Each file of this
+ * folder gives them for one instruction set, and no other file of src names an intrinsic. */
+#ifndef SPTI_LANES_H
+#define SPTI_LANES_H
+
+#include <spheretrace/simd.h>
+
+#include "../base/compiler.h"
+
+/* Every lane with its mantissa cleared: the power of two at or below a positive normal number. */
+SPTI_INLINE spt_wide spti_power_of_two(spt_wide a);
+
+/* Writes the lanes whose bit is set in keep (bit i for lane i), in order, from `to` on. Writes a
+ * whole vector; what stands behind the kept lanes is undefined. */
+SPTI_INLINE void spti_compress(float *to, spt_wide a, unsigned keep);
+
+#if SPT_LANES == 16
+#include "lanes_avx512.h"
+#elif SPT_LANES == 8
+#include "lanes_avx2.h"
+#elif SPT_LANES == 4
+#include "lanes_sse.h"
+#else
+#include "lanes_scalar.h"
+#endif
+
+#endif

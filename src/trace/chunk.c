@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The life of a chunk: loaded, marched pass by pass, and emptied as its rays finish. Per ray and
+ * pass everything happens in the kernels; here is what happens once a ray or once a pass. */
+#include <math.h>
+
+#include "../base/arguments.h"
+#include "driver.h"
+
+/* A column's value, or what stands for an absent one. By memcpy, since values need no alignment. */
+static float read_float(const spt_column *column, size_t i) {
+    float value;
+    memcpy(&value, (const char *)column->first + (ptrdiff_t)i * column->stride, sizeof value);
+    return value;
+}
+
+static void load_column(spti_chunk *chunk, int array, const spt_column *column, float absent,
+                        const unsigned char *picked, size_t count, size_t first) {
+    float *const to = chunk->array[array];
+    for (size_t slot = 0; slot < count; ++slot) {
+        to[slot] = column->first != NULL ? read_float(column, first + picked[slot]) : absent;
+    }
+    for (size_t slot = count; slot % SPTI_GROUP != 0; ++slot) to[slot] = to[count - 1];
+}
+
+static void fill(spti_chunk *chunk, int array, float value) {
+    for (size_t slot = 0; slot < SPTI_ROOM; ++slot) chunk->array[array][slot] = value;
+}
+
+/* Loads the active rays of a window; returns how many. */
+static size_t load_chunk(const spti_call *call, spti_chunk *chunk, size_t first, size_t window) {
+    const spt_rays *rays = &call->rays;
+    unsigned char picked[SPT_BATCH];
+    size_t count = 0;
+    for (size_t i = 0; i < window; ++i) {
+        int32_t active = -1;
+        if (rays->active.first != NULL) {
+            memcpy(&active,
+                   (const char *)rays->active.first + (ptrdiff_t)(first + i) * rays->active.stride,
+                   sizeof active);
+        }
+        picked[count] = (unsigned char)i;
+        count += active != 0;
+    }
+    if (count == 0) return 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        load_column(chunk, SPTI_ORIGIN + axis, &rays->origin[axis], 0, picked, count, first);
+        load_column(chunk, SPTI_DIRECTION + axis, &rays->direction[axis], 0, picked, count, first);
+    }
+    load_column(chunk, SPTI_T, &rays->t_min, 0, picked, count, first);
+    load_column(chunk, SPTI_T_MAX, &rays->t_max, INFINITY, picked, count, first);
+    load_column(chunk, SPTI_PATH, &rays->path, 0, picked, count, first);
+    for (size_t slot = 0; slot < count; ++slot) chunk->array[SPTI_INDEX][slot] = picked[slot];
+    for (size_t i = 0; i < call->array_count; ++i) {
+        const int array = call->arrays[i];
+        if (array >= SPTI_MEMORY) fill(chunk, array, array == SPTI_CANDIDATE_RATIO ? INFINITY : 0);
+    }
+    fill(chunk, SPTI_VALUE, INFINITY);
+    return count;
+}
+
+void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
+    const size_t whole = (n + SPTI_GROUP - 1) / SPTI_GROUP * SPTI_GROUP;
+    float *const x = chunk->array[SPTI_X], *const y = chunk->array[SPTI_Y];
+    float *const z = chunk->array[SPTI_Z], *const distance = chunk->distance;
+    if (call->field.batch != NULL) {
+        for (size_t i = 0; i < whole; ++i) distance[i] = NAN;
+        call->field.batch(call->field.user, whole, x, y, z, distance);
+    } else {
+        for (size_t i = 0; i < n; ++i) {
+            distance[i] = call->field.point(call->field.user, x[i], y[i], z[i]);
+        }
+        for (size_t i = n; i < whole; ++i) distance[i] = distance[0];
+    }
+    if (call->statistics != NULL) {
+        call->statistics->passes += 1;
+        call->statistics->evaluations += n;
+        call->statistics->slots += whole;
+    }
+}
+
+static void write_word(const spt_sink *sink, size_t i, const void *word) {
+    if (sink->first != NULL) memcpy((char *)sink->first + (ptrdiff_t)i * sink->stride, word, 4);
+}
+
+void spti_write_hit(const spti_call *call, const spti_chunk *chunk, size_t slot, size_t first,
+                    spti_leave leave) {
+    const size_t index = (size_t)chunk->array[SPTI_INDEX][slot], ray = first + index;
+    const int reached = leave.outcome != SPT_MISS && leave.outcome != SPT_BAD_RAY;
+    const float t = reached ? chunk->array[SPTI_T][slot] * chunk->unit[index] : INFINITY;
+    const float residual = reached ? chunk->array[SPTI_VALUE][slot] : INFINITY;
+    const int32_t outcome = (int32_t)leave.outcome, component = leave.outcome == SPT_HIT ? 0 : -1;
+    const spt_hits *hits = &call->hits;
+    write_word(&hits->t, ray, &t);
+    write_word(&hits->residual, ray, &residual);
+    write_word(&hits->outcome, ray, &outcome);
+    write_word(&hits->evaluations, ray, &leave.evaluations);
+    write_word(&hits->component, ray, &component);
+    if (call->wants & SPTI_WANT_CANDIDATE) {
+        const float ratio = chunk->array[SPTI_CANDIDATE_RATIO][slot];
+        const float candidate = chunk->array[SPTI_CANDIDATE_T][slot] * chunk->unit[index];
+        const float candidate_t = ratio < INFINITY ? candidate : INFINITY;
+        write_word(&hits->candidate_t, ray, &candidate_t);
+        write_word(&hits->candidate_ratio, ray, &ratio);
+    }
+    if (call->wants & SPTI_WANT_SLOPE) {
+        const float steepest = chunk->array[SPTI_STEEPEST][slot];
+        /* Exact fields were seen to reach 1.0003. */
+        const uint32_t steep = leave.steep || steepest > 1.001f ? SPT_FLAG_STEEP : 0;
+        const uint32_t inside = chunk->array[SPTI_SCALE][slot] < 0 ? SPT_FLAG_INSIDE : 0;
+        const uint32_t flags = steep | inside;
+        write_word(&hits->flags, ray, &flags);
+        if (call->statistics != NULL) {
+            const float slope = steepest * call->field.lipschitz;
+            if (slope > call->statistics->largest_slope) call->statistics->largest_slope = slope;
+        }
+    }
+    if (call->wants & SPTI_WANT_FALLBACKS) {
+        const uint32_t fallbacks = (uint32_t)chunk->array[SPTI_FALLBACKS][slot];
+        write_word(&hits->fallbacks, ray, &fallbacks);
+        if (call->statistics != NULL) call->statistics->fallbacks += fallbacks;
+    }
+    if (call->statistics != NULL) {
+        call->statistics->rays += 1;
+        call->statistics->outcomes[leave.outcome] += 1;
+    }
+}
+
+/* Moves a bracketed ray to the end of the chunk, where finished rays have made room. */
+static void set_bracket_aside(spti_chunk *chunk, size_t slot, size_t to, uint32_t evaluations) {
+    for (int array = 0; array < SPTI_ARRAYS; ++array) {
+        if (array != SPTI_PENDING_T && array != SPTI_PENDING_VALUE) {
+            chunk->array[array][to] = chunk->array[array][slot];
+        }
+    }
+    chunk->array[SPTI_PENDING_T][to] = chunk->distance[slot]; /* f at the probe that crossed */
+    memcpy(&chunk->array[SPTI_PENDING_VALUE][to], &evaluations, sizeof evaluations);
+}
+
+/* The outcome that the fates of a group give a ray; a finished one in no mask stalled. */
+static spt_outcome outcome_of(const spti_fates *fates, unsigned bit) {
+    if (fates->hit >> bit & 1) return SPT_HIT;
+    if (fates->missed >> bit & 1) return SPT_MISS;
+    if (fates->nonfinite >> bit & 1) return SPT_NONFINITE;
+    if (fates->bad >> bit & 1) return SPT_BAD_RAY;
+    return SPT_LIMIT;
+}
+
+/* Writes out the finished rays and closes the gaps; returns how many rays go on. Brackets are set
+ * aside and counted. */
+static size_t empty_finished(const spti_call *call, spti_chunk *chunk, size_t count, size_t first,
+                             uint32_t age, const uint32_t *extra, size_t *brackets) {
+    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
+        const spti_fates *fates = &chunk->fates[group];
+        for (unsigned bit = 0; fates->finished >> bit != 0; ++bit) {
+            if (!(fates->finished >> bit & 1)) continue;
+            const size_t slot = group * SPTI_GROUP + bit;
+            const uint32_t more = extra != NULL ? extra[(size_t)chunk->array[SPTI_INDEX][slot]] : 0;
+            if (fates->bracketed >> bit & 1) {
+                *brackets += 1;
+                set_bracket_aside(chunk, slot, SPTI_ROOM - *brackets, age + more);
+                continue;
+            }
+            const spti_leave leave = {outcome_of(fates, bit), age + more, 0};
+            spti_write_hit(call, chunk, slot, first, leave);
+        }
+    }
+    return spti_chunk_kernels_of[call->isa].compact(chunk, call->arrays, call->array_count, count);
+}
+
+/* What the samples at t_min decide: on which side each ray is. */
+static void start_rays(spti_chunk *chunk, size_t count) {
+    float *const scale = chunk->array[SPTI_SCALE];
+    for (size_t slot = 0; slot < (count + SPTI_GROUP - 1) / SPTI_GROUP * SPTI_GROUP; ++slot) {
+        const float value = chunk->distance[slot];
+        chunk->array[SPTI_VALUE][slot] = value;
+        scale[slot] = value < 0.0f ? -scale[slot] : scale[slot];
+    }
+}
+
+/* The options that change what a first sample means. Returns whether a ray finished. */
+static int apply_start_options(const spti_call *call, spti_chunk *chunk, size_t count) {
+    unsigned any = 0;
+    for (size_t slot = 0; slot < count; ++slot) {
+        spti_fates *fates = &chunk->fates[slot / SPTI_GROUP];
+        const uint16_t bit = (uint16_t)(1u << slot % SPTI_GROUP);
+        /* Still within the tolerance after skipping: the budget ended, and it is no hit. */
+        if (call->settings.flags & SPT_SKIP_START) fates->hit &= (uint16_t)~bit;
+        if ((call->settings.flags & SPT_STOP_INSIDE) && chunk->array[SPTI_SCALE][slot] < 0 &&
+            !(fates->nonfinite & bit)) {
+            fates->hit |= bit;
+            fates->missed &= (uint16_t)~bit;
+            fates->finished |= bit;
+        }
+        any |= fates->finished;
+    }
+    return any != 0;
+}
+
+/* Ends the rays whose budget is used up. Returns whether there was one. */
+static int expire(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t age,
+                  const uint32_t *extra) {
+    unsigned any = 0;
+    for (size_t slot = 0; slot < count; ++slot) {
+        const uint32_t more = extra != NULL ? extra[(size_t)chunk->array[SPTI_INDEX][slot]] : 0;
+        if (age + more >= call->settings.budget) {
+            chunk->fates[slot / SPTI_GROUP].finished |= (uint16_t)(1u << slot % SPTI_GROUP);
+            any = 1;
+        }
+    }
+    return any != 0;
+}
+
+/* Marches rays until all have left. extra: by index, evaluations before the first pass, or NULL. */
+static void march_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size_t first,
+                        uint32_t *extra) {
+    const int options = (call->settings.flags & (SPT_SKIP_START | SPT_STOP_INSIDE)) != 0;
+    uint32_t age = 0, most_extra = 0;
+    size_t brackets = 0;
+    int any = 0;
+    if (call->settings.budget == 0) {
+        memset(chunk->fates, 0, sizeof chunk->fates);
+        any = expire(call, chunk, count, 0, NULL);
+        count = any ? empty_finished(call, chunk, count, first, 0, NULL, &brackets) : count;
+    }
+    while (count > 0) {
+        spti_evaluate(call, chunk, count);
+        if (age == 0) {
+            if (extra != NULL) most_extra = spti_skip_start(call, chunk, count, extra);
+            start_rays(chunk, count);
+        }
+        any = call->pass(chunk, &call->march, count, age == 0);
+        if (age == 0 && options) any = apply_start_options(call, chunk, count);
+        ++age;
+        if (age + most_extra >= call->settings.budget) {
+            any |= expire(call, chunk, count, age, extra);
+        }
+        if (any) count = empty_finished(call, chunk, count, first, age, extra, &brackets);
+    }
+    if (brackets > 0) spti_close_brackets(call, chunk, brackets, first);
+}
+
+/* With the array it needs in a frame of its own. */
+static SPTI_NOINLINE void march_skipping(const spti_call *call, spti_chunk *chunk, size_t count,
+                                         size_t first) {
+    uint32_t extra[SPT_BATCH];
+    memset(extra, 0, sizeof extra);
+    march_chunk(call, chunk, count, first, extra);
+}
+
+void spti_trace_chunk(const spti_call *call, size_t first, size_t window) {
+    spti_chunk chunk;
+    size_t count = load_chunk(call, &chunk, first, window), brackets = 0;
+    if (count == 0) return;
+    if (spti_chunk_kernels_of[call->isa].prepare(&chunk, &call->march, count)) {
+        count = empty_finished(call, &chunk, count, first, 0, NULL, &brackets);
+    }
+    if (call->settings.flags & SPT_SKIP_START) {
+        march_skipping(call, &chunk, count, first);
+    } else {
+        march_chunk(call, &chunk, count, first, NULL);
+    }
+}

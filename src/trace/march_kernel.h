@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The driver of every step rule: one pass over a chunk. A template, included once a file.
+ * Parameters: SPT_LANES, and a step rule (methods/methods.h) included before. Defines march_pass().
+ *
+ * The logic is lane-local throughout: no ray decides anything for another, which is what makes the
+ * results independent of width, order and neighbours.
+ *
+ * Where the papers' listings differ (each difference measured on adversarial rays): the overlap
+ * test is strict, signed and has the margin of the rounding floor, since spheres that only touch
+ * may touch on the surface (Keinert et al. 2014, Listing 2; Bálint & Valasek 2018, Algorithms 2-3);
+ * a rejected probe goes back to exactly t + r, where Listing 2 lands short of it; t_max is tested
+ * on certified intervals only; budgets count evaluations; the sign is that at t_min. */
+#ifndef SPTI_MARCH_KERNEL_H
+#define SPTI_MARCH_KERNEL_H
+
+#include <float.h>
+
+#include "../base/arguments.h"
+#include "chunk.h"
+
+/* Everything uniform, in all lanes. */
+typedef struct march_constants {
+    spti_parameters rule;
+    spt_wide pixel_radius, floor_slope, margin;
+    spt_mask first;
+} march_constants;
+
+/* A ray between two samples. */
+typedef struct march_state {
+    spt_wide t, value, radius;
+    spt_wide memory[2];
+    spt_wide pending_t, pending_value;
+} march_state;
+
+/* The certified samples' results. */
+typedef struct march_audit {
+    spt_wide steepest, fallbacks, candidate_t, candidate_ratio;
+} march_audit;
+
+/* The constants of the rays of a vector. */
+typedef struct march_rays {
+    spt_wide scale, t_max, epsilon, path, floor_at_0;
+} march_rays;
+
+SPTI_INLINE spt_wide march_load(const spti_chunk *chunk, int array, size_t at) {
+    return spt_load(&chunk->array[array][at]);
+}
+
+SPTI_INLINE void march_store(spti_chunk *chunk, int array, size_t at, spt_wide a) {
+    spt_store(&chunk->array[array][at], a);
+}
+
+SPTI_INLINE spt_wide march_floor(const march_constants *all, const march_rays *rays, spt_wide t) {
+    return spt_add(spt_mul(all->floor_slope, t), rays->floor_at_0);
+}
+
+SPTI_INLINE spt_wide march_tolerance(const march_constants *all, const march_rays *rays, spt_wide t,
+                                     spt_wide floor) {
+    const spt_wide cone = spt_mul(all->pixel_radius, spt_add(rays->path, t));
+    return spt_max(rays->epsilon, spt_max(cone, floor));
+}
+
+/* Whether the spheres of radius a and b, `step` apart, overlap by more than rounding can feign. */
+SPTI_INLINE spt_mask march_overlap(const march_constants *all, spt_wide a, spt_wide b,
+                                   spt_wide step, spt_wide floor) {
+    return spt_less(spt_add(spt_mul(step, all->margin), floor), spt_add(a, b));
+}
+
+/* Screen-space candidate (Keinert et al. 2014, section 3.2): the least radius over distance from
+ * the eye, measured along the whole path, and never divided by zero. */
+SPTI_INLINE void march_candidate(const march_rays *rays, const march_state *ray, spt_mask certified,
+                                 march_audit *audit) {
+    const spt_wide eye = spt_max(spt_add(rays->path, ray->t), rays->epsilon);
+    const spt_wide ratio = spt_div(spt_max(ray->radius, spt_splat(0.0f)), eye);
+    const spt_mask nearer = spt_mask_and(certified, spt_less(ratio, audit->candidate_ratio));
+    audit->candidate_ratio = spt_select(nearer, ratio, audit->candidate_ratio);
+    audit->candidate_t = spt_select(nearer, ray->t, audit->candidate_t);
+}
+
+/* The Lipschitz audit: the slope between two samples that rounding cannot explain. Infinite values
+ * say "nothing here" and have no slope. */
+SPTI_INLINE void march_slope(const spti_pair *pair, spt_wide floor, spt_mask certified,
+                             march_audit *audit) {
+    const spt_wide change = spt_abs(spt_sub(pair->after, pair->before));
+    const spt_wide slope = spt_div(spt_sub(change, spt_add(floor, floor)), pair->step);
+    const spt_mask steeper =
+        spt_mask_and(spt_less(audit->steepest, slope), spt_less_equal(slope, spt_splat(FLT_MAX)));
+    audit->steepest = spt_select(spt_mask_and(certified, steeper), slope, audit->steepest);
+}
+
+/* The rule's memory after a certified sample, in the lanes of the mask. */
+SPTI_INLINE void march_accept(const march_constants *all, const spti_pair *pair, spt_mask moved,
+                              spt_mask first, march_state *ray) {
+    spt_wide started[2], accepted[2];
+    for (int i = 0; i < 2; ++i) started[i] = accepted[i] = ray->memory[i];
+    rule_start(started);
+    rule_accepted(&all->rule, pair, accepted);
+    for (int i = 0; i < rule_memory; ++i) {
+        accepted[i] = spt_select(first, started[i], accepted[i]);
+        ray->memory[i] = spt_select(moved, accepted[i], ray->memory[i]);
+    }
+}
+
+/* The point to evaluate next, for rays that go on. */
+SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays *rays,
+                                   const march_state *ray, spt_mask rejected, spt_mask *missed) {
+    const spt_mask inside = spt_less(rays->scale, spt_splat(0.0f));
+    const spti_standing standing = {ray->radius, march_floor(all, rays, ray->t),
+                                    spt_mask_and_not(spt_mask_splat(1), inside)};
+    const spt_mask covered = spt_less_equal(spt_add(ray->t, ray->radius), rays->t_max);
+    spt_mask rising = spt_mask_splat(0);
+    spt_wide step = rule_step(&all->rule, &standing, ray->memory, &rising);
+    *missed = spt_mask_or(rising, spt_mask_and_not(spt_mask_splat(1), covered));
+    step = spt_max(spt_min(step, spt_sub(rays->t_max, ray->t)), ray->radius);
+    step = spt_select(rejected, ray->radius, step);
+    if (rule_pending) {
+        /* A probe beyond where the pending sphere begins would be certified by it, or not at all. */
+        const spt_wide pending_radius = spt_mul(ray->pending_value, rays->scale);
+        const spt_wide begins = spt_sub(ray->pending_t, pending_radius);
+        const spt_mask pending = spt_less(ray->t, ray->pending_t);
+        const spt_mask beyond = spt_less(begins, spt_add(ray->t, step));
+        step = spt_select(spt_mask_and(pending, beyond), ray->radius, step);
+    }
+    return spt_min(spt_add(ray->t, step), rays->t_max);
+}
+
+/* One vector. wants is a constant. Returns the bits of the finished lanes and adds the fates at
+ * `shift`, the vector's place in its group. */
+SPTI_INLINE unsigned march_vector(spti_chunk *chunk, const march_constants *all, size_t at,
+                                  unsigned shift, unsigned wants, spti_fates *fates) {
+    const spt_wide zero = spt_splat(0.0f);
+    const spt_mask everywhere = spt_mask_splat(1), nowhere = spt_mask_splat(0);
+    const march_rays rays = {march_load(chunk, SPTI_SCALE, at), march_load(chunk, SPTI_T_MAX, at),
+                             march_load(chunk, SPTI_EPSILON, at), march_load(chunk, SPTI_PATH, at),
+                             march_load(chunk, SPTI_FLOOR_AT_0, at)};
+    const spt_wide probe = march_load(chunk, SPTI_PROBE, at);
+    const spt_wide sampled = spt_load(&chunk->distance[at]);
+    const spt_wide sampled_radius = spt_mul(sampled, rays.scale);
+    const spt_wide floor = march_floor(all, &rays, probe);
+    const spt_wide tolerance = march_tolerance(all, &rays, probe, floor);
+    march_audit audit = {zero, zero, zero, zero};
+    march_state ray;
+    ray.t = march_load(chunk, SPTI_T, at);
+    ray.value = march_load(chunk, SPTI_VALUE, at);
+    ray.radius = spt_mul(ray.value, rays.scale);
+    ray.memory[0] = rule_memory > 0 ? march_load(chunk, SPTI_MEMORY, at) : zero;
+    ray.memory[1] = rule_memory > 1 ? march_load(chunk, SPTI_MEMORY + 1, at) : zero;
+    ray.pending_t = rule_pending ? march_load(chunk, SPTI_PENDING_T, at) : zero;
+    ray.pending_value = rule_pending ? march_load(chunk, SPTI_PENDING_VALUE, at) : zero;
+
+    /* Judge the sample. A probe beyond the certified sphere counts only if its own sphere reaches
+     * back; what else it shows, even NaN, is no event. */
+    spt_wide step = spt_sub(probe, ray.t);
+    spt_mask rejected = nowhere;
+    if (rule_probes) {
+        const spt_mask over = spt_less(spt_add(ray.t, ray.radius), probe);
+        const spt_mask reaches = march_overlap(all, ray.radius, sampled_radius, step, floor);
+        const spt_mask verified = spt_mask_and(spt_less_equal(zero, sampled_radius), reaches);
+        rejected = spt_mask_and_not(over, verified);
+    }
+    const spt_mask certified = spt_mask_and_not(everywhere, rejected);
+    const spt_mask number = spt_mask_and(certified, spt_less_equal(spt_splat(-FLT_MAX), sampled));
+    const spt_mask nonfinite = spt_mask_and_not(certified, number);
+    const spt_mask below = spt_less(spt_sub(zero, tolerance), sampled_radius);
+    const spt_mask bracketed = spt_mask_and_not(number, below);
+    const spt_mask moved = spt_mask_and_not(certified, bracketed);
+    spt_mask hit = spt_mask_and(spt_mask_and(number, below), spt_less(sampled_radius, tolerance));
+
+    step = spt_max(step, spt_splat(FLT_MIN));
+    const spti_pair pair = {step, ray.radius, sampled_radius};
+    if (wants & SPTI_WANT_SLOPE) {
+        audit.steepest = march_load(chunk, SPTI_STEEPEST, at);
+        march_slope(&pair, floor, number, &audit);
+    }
+    march_accept(all, &pair, moved, all->first, &ray);
+    if (rule_probes) {
+        spt_wide turned_down[2] = {ray.memory[0], ray.memory[1]};
+        rule_rejected(turned_down);
+        for (int i = 0; i < rule_memory; ++i) {
+            ray.memory[i] = spt_select(rejected, turned_down[i], ray.memory[i]);
+        }
+    }
+    ray.t = spt_select(moved, probe, ray.t);
+    ray.value = spt_select(moved, sampled, ray.value);
+    ray.radius = spt_select(moved, sampled_radius, ray.radius);
+    if (wants & SPTI_WANT_CANDIDATE) {
+        audit.candidate_t = march_load(chunk, SPTI_CANDIDATE_T, at);
+        audit.candidate_ratio = march_load(chunk, SPTI_CANDIDATE_RATIO, at);
+        march_candidate(&rays, &ray, spt_mask_and(moved, number), &audit);
+    }
+
+    if (rule_pending) {
+        /* Keep a rejected probe that was outside; and go to the kept one, at no evaluation, as soon
+         * as the certified sphere meets its own (the "trivial extension" of Keinert 3.1). */
+        const spt_mask kept = spt_mask_and(rejected, spt_less(zero, sampled_radius));
+        ray.pending_t = spt_select(rejected, spt_select(kept, probe, zero), ray.pending_t);
+        ray.pending_value = spt_select(rejected, sampled, ray.pending_value);
+        const spt_wide radius = spt_mul(ray.pending_value, rays.scale);
+        const spt_wide there = march_floor(all, &rays, ray.pending_t);
+        const spt_wide leap = spt_sub(ray.pending_t, ray.t);
+        const spt_mask ahead = spt_less(ray.t, ray.pending_t);
+        const spt_mask meets = march_overlap(all, ray.radius, radius, leap, there);
+        const spt_mask leaps =
+            spt_mask_and_not(spt_mask_and(ahead, meets), spt_mask_or(hit, nonfinite));
+        const spti_pair leapt = {spt_max(leap, spt_splat(FLT_MIN)), ray.radius, radius};
+        march_accept(all, &leapt, leaps, nowhere, &ray);
+        ray.t = spt_select(leaps, ray.pending_t, ray.t);
+        ray.value = spt_select(leaps, ray.pending_value, ray.value);
+        ray.radius = spt_select(leaps, radius, ray.radius);
+        const spt_wide close = march_tolerance(all, &rays, ray.t, there);
+        hit = spt_mask_or(hit, spt_mask_and(leaps, spt_less(ray.radius, close)));
+        if (wants & SPTI_WANT_CANDIDATE) march_candidate(&rays, &ray, leaps, &audit);
+    }
+
+    spt_mask missed;
+    const spt_wide next = march_propose(all, &rays, &ray, rejected, &missed);
+    const spt_mask settled = spt_mask_or(hit, spt_mask_or(nonfinite, bracketed));
+    const spt_mask advances = spt_mask_and_not(spt_less(ray.t, next), missed);
+    const spt_mask goes_on = spt_mask_and_not(advances, settled);
+    const unsigned finished = spt_mask_bits(spt_mask_and_not(everywhere, goes_on));
+    fates->finished = (uint16_t)(fates->finished | finished << shift);
+    fates->hit = (uint16_t)(fates->hit | spt_mask_bits(hit) << shift);
+    fates->missed =
+        (uint16_t)(fates->missed | spt_mask_bits(spt_mask_and_not(missed, settled)) << shift);
+    fates->nonfinite = (uint16_t)(fates->nonfinite | spt_mask_bits(nonfinite) << shift);
+    fates->bracketed = (uint16_t)(fates->bracketed | spt_mask_bits(bracketed) << shift);
+
+    march_store(chunk, SPTI_T, at, ray.t);
+    march_store(chunk, SPTI_VALUE, at, ray.value);
+    /* A bracket is closed between t and the probe that crossed. */
+    march_store(chunk, SPTI_PROBE, at, spt_select(bracketed, probe, next));
+    for (int i = 0; i < rule_memory; ++i) {
+        march_store(chunk, SPTI_MEMORY + i, at, ray.memory[i]);
+    }
+    if (rule_pending) {
+        march_store(chunk, SPTI_PENDING_T, at, ray.pending_t);
+        march_store(chunk, SPTI_PENDING_VALUE, at, ray.pending_value);
+    }
+    if (wants & SPTI_WANT_SLOPE) march_store(chunk, SPTI_STEEPEST, at, audit.steepest);
+    if (wants & SPTI_WANT_FALLBACKS) {
+        audit.fallbacks = march_load(chunk, SPTI_FALLBACKS, at);
+        const spt_wide more = spt_add(audit.fallbacks, spt_splat(1.0f));
+        march_store(chunk, SPTI_FALLBACKS, at, spt_select(rejected, more, audit.fallbacks));
+    }
+    if (wants & SPTI_WANT_CANDIDATE) {
+        march_store(chunk, SPTI_CANDIDATE_T, at, audit.candidate_t);
+        march_store(chunk, SPTI_CANDIDATE_RATIO, at, audit.candidate_ratio);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const spt_wide along = spt_mul(next, march_load(chunk, SPTI_DIRECTION + axis, at));
+        const spt_wide origin = march_load(chunk, SPTI_ORIGIN + axis, at);
+        march_store(chunk, SPTI_X + axis, at, spt_add(origin, along));
+    }
+    return finished;
+}
+
+/* One pass; see spti_march_fn. wants is a constant of SPTI_WANT_*. */
+SPTI_INLINE int march_pass(spti_chunk *chunk, const spti_march *march, size_t count, int first,
+                           unsigned wants) {
+    const march_constants all = {{spt_splat(march->relaxation), spt_splat(march->extrapolation),
+                                  spt_splat(march->slope_blend), spt_splat(march->step_cap)},
+                                 spt_splat(march->pixel_radius),
+                                 spt_splat(SPTI_FLOOR),
+                                 spt_splat(1.0f + SPTI_FLOOR),
+                                 spt_mask_splat(first)};
+    unsigned any = 0;
+    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
+        spti_fates fates = {0, 0, 0, 0, 0, 0};
+        const size_t start = group * SPTI_GROUP, left = count - start;
+        for (unsigned shift = 0; shift < SPTI_GROUP && shift < left; shift += SPT_LANES) {
+            march_vector(chunk, &all, start + shift, shift, wants, &fates);
+        }
+        /* Lanes behind the last ray hold nothing. */
+        if (left < SPTI_GROUP) fates.finished &= (uint16_t)((1u << left) - 1u);
+        chunk->fates[group] = fates;
+        any |= fates.finished;
+    }
+    return any != 0;
+}
+
+#endif

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What few rays need, one by one in plain C around the batch callback: leaving the surface a ray
+ * starts on, and closing the bracket around a sign change that no distance bound would show. */
+#include <math.h>
+
+#include "../base/arguments.h"
+#include "driver.h"
+
+static float larger(float a, float b) {
+    return a > b ? a : b;
+}
+
+float spti_tolerance(const spti_call *call, const spti_chunk *chunk, size_t slot, float t) {
+    const float cone = call->march.pixel_radius * (chunk->array[SPTI_PATH][slot] + t);
+    const float floor = SPTI_FLOOR * t + chunk->array[SPTI_FLOOR_AT_0][slot];
+    return larger(chunk->array[SPTI_EPSILON][slot], larger(cone, floor));
+}
+
+void spti_place_point(spti_chunk *chunk, size_t from, size_t to, float t) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const float along = t * chunk->array[SPTI_DIRECTION + axis][from];
+        chunk->array[SPTI_X + axis][to] = chunk->array[SPTI_ORIGIN + axis][from] + along;
+    }
+}
+
+/* Fills the last group with copies of the first point. */
+static void pad_points(spti_chunk *chunk, size_t count) {
+    for (size_t slot = count; slot % SPTI_GROUP != 0; ++slot) {
+        for (int axis = 0; axis < 3; ++axis) {
+            chunk->array[SPTI_X + axis][slot] = chunk->array[SPTI_X + axis][0];
+        }
+    }
+}
+
+static int within_tolerance(const spti_call *call, const spti_chunk *chunk, size_t slot) {
+    const float radius = chunk->array[SPTI_VALUE][slot] * chunk->array[SPTI_SCALE][slot];
+    const float t = chunk->array[SPTI_T][slot];
+    return fabsf(radius) < spti_tolerance(call, chunk, slot, t);
+}
+
+uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t *extra) {
+    unsigned char walking[SPT_BATCH];
+    size_t walkers = 0;
+    uint32_t steps = 0;
+    for (size_t slot = 0; slot < count; ++slot) {
+        chunk->array[SPTI_VALUE][slot] = chunk->distance[slot];
+        if (within_tolerance(call, chunk, slot)) walking[walkers++] = (unsigned char)slot;
+    }
+    while (walkers > 0 && steps + 1 < call->settings.budget) {
+        size_t asked = 0;
+        for (size_t i = 0; i < walkers; ++i) {
+            const size_t slot = walking[i];
+            const float t = chunk->array[SPTI_T][slot];
+            const float next = t + spti_tolerance(call, chunk, slot, t);
+            if (!(next > t) || !(next <= chunk->array[SPTI_T_MAX][slot])) {
+                chunk->array[SPTI_VALUE][slot] = INFINITY; /* nothing ahead: a miss */
+                continue;
+            }
+            chunk->array[SPTI_T][slot] = chunk->array[SPTI_PROBE][slot] = next;
+            spti_place_point(chunk, slot, asked, next);
+            walking[asked++] = (unsigned char)slot;
+        }
+        walkers = asked;
+        if (walkers == 0) break;
+        pad_points(chunk, walkers);
+        spti_evaluate(call, chunk, walkers);
+        ++steps;
+        size_t still = 0;
+        for (size_t i = 0; i < walkers; ++i) {
+            const size_t slot = walking[i];
+            chunk->array[SPTI_VALUE][slot] = chunk->distance[i];
+            extra[(size_t)chunk->array[SPTI_INDEX][slot]] = steps;
+            if (within_tolerance(call, chunk, slot)) walking[still++] = (unsigned char)slot;
+        }
+        walkers = still;
+    }
+    const size_t whole = (count + SPTI_GROUP - 1) / SPTI_GROUP * SPTI_GROUP;
+    for (size_t slot = 0; slot < whole; ++slot) {
+        chunk->distance[slot] = chunk->array[SPTI_VALUE][slot < count ? slot : 0];
+    }
+    return steps;
+}
+
+/* ---- Brackets ------------------------------------------------------------------------------- */
+
+/* A ray in a slot between a = t, free up to there, and b = probe, on the other side. */
+static float *bracket_end(spti_chunk *chunk, size_t slot) {
+    return &chunk->array[SPTI_PROBE][slot];
+}
+
+static float *bracket_end_value(spti_chunk *chunk, size_t slot) {
+    return &chunk->array[SPTI_PENDING_T][slot];
+}
+
+/* Its next sample, in an array that only a march needs. */
+static float *bracket_sample(spti_chunk *chunk, size_t slot) {
+    return &chunk->array[SPTI_MEMORY][slot];
+}
+
+/* Where to sample next: the root of the chord and the middle in turn, 5 % away from the ends. */
+static float split(spti_chunk *chunk, size_t slot, uint32_t turn) {
+    const float scale = chunk->array[SPTI_SCALE][slot];
+    const float a = chunk->array[SPTI_T][slot], b = *bracket_end(chunk, slot);
+    const float before = chunk->array[SPTI_VALUE][slot] * scale;
+    const float behind = *bracket_end_value(chunk, slot) * scale;
+    const float width = b - a, margin = 0.05f * width;
+    const float chord = a + width * (before / (before - behind)); /* before >= 0 > behind */
+    const float middle = a + 0.5f * width;
+    const float point = turn % 2 == 0 ? chord : middle;
+    const float low = a + margin, high = b - margin;
+    return point > low ? (point < high ? point : high) : low;
+}
+
+/* Ends a bracket; the outcome's t and f stand in the slot. */
+static void leave(const spti_call *call, spti_chunk *chunk, size_t slot, size_t first,
+                  spt_outcome outcome) {
+    spti_leave how = {outcome, 0, 1};
+    memcpy(&how.evaluations, &chunk->array[SPTI_PENDING_VALUE][slot], sizeof how.evaluations);
+    spti_write_hit(call, chunk, slot, first, how);
+}
+
+/* Whether the ray in a slot needs another sample at t, its next; otherwise it was written out. */
+static int goes_on(const spti_call *call, spti_chunk *chunk, size_t slot, size_t first,
+                   uint32_t turn, float t) {
+    const float a = chunk->array[SPTI_T][slot], b = *bracket_end(chunk, slot);
+    uint32_t evaluations;
+    memcpy(&evaluations, &chunk->array[SPTI_PENDING_VALUE][slot], sizeof evaluations);
+    if (b - a <= spti_tolerance(call, chunk, slot, a) || !(t > a && t < b) ||
+        turn == SPTI_BRACKET_EVALUATIONS) {
+        leave(call, chunk, slot, first, SPT_HIT);
+        return 0;
+    }
+    if (evaluations >= call->settings.budget) {
+        leave(call, chunk, slot, first, SPT_LIMIT);
+        return 0;
+    }
+    ++evaluations;
+    memcpy(&chunk->array[SPTI_PENDING_VALUE][slot], &evaluations, sizeof evaluations);
+    return 1;
+}
+
+/* Takes a sample in. Returns whether the bracket is still open. */
+static int narrow(const spti_call *call, spti_chunk *chunk, size_t slot, size_t first, float t,
+                  float value) {
+    const float radius = value * chunk->array[SPTI_SCALE][slot];
+    const int number = value >= -FLT_MAX;
+    const int close = fabsf(radius) < spti_tolerance(call, chunk, slot, t);
+    if (number && !close && radius < 0.0f) {
+        *bracket_end(chunk, slot) = t;
+        *bracket_end_value(chunk, slot) = value;
+        return 1;
+    }
+    chunk->array[SPTI_T][slot] = t;
+    chunk->array[SPTI_VALUE][slot] = value;
+    if (number && !close) return 1;
+    leave(call, chunk, slot, first, number ? SPT_HIT : SPT_NONFINITE);
+    return 0;
+}
+
+void spti_close_brackets(const spti_call *call, spti_chunk *chunk, size_t count, size_t first) {
+    uint16_t open[SPT_BATCH];
+    for (size_t i = 0; i < count; ++i) open[i] = (uint16_t)(SPTI_ROOM - 1 - i);
+    for (uint32_t turn = 0; count > 0 && turn <= SPTI_BRACKET_EVALUATIONS; ++turn) {
+        size_t asked = 0, still = 0;
+        for (size_t i = 0; i < count; ++i) {
+            const size_t slot = open[i];
+            const float t = split(chunk, slot, turn);
+            if (!goes_on(call, chunk, slot, first, turn, t)) continue;
+            open[asked++] = (uint16_t)slot;
+            *bracket_sample(chunk, slot) = t;
+        }
+        if (asked == 0) break;
+        /* The points go to the front of arrays whose slots at the end are the brackets: their own
+         * points are not needed, so that nothing is lost where the two meet. */
+        for (size_t i = 0; i < asked; ++i) {
+            spti_place_point(chunk, open[i], i, *bracket_sample(chunk, open[i]));
+        }
+        pad_points(chunk, asked);
+        spti_evaluate(call, chunk, asked);
+        for (size_t i = 0; i < asked; ++i) {
+            const float t = *bracket_sample(chunk, open[i]);
+            if (narrow(call, chunk, open[i], first, t, chunk->distance[i])) open[still++] = open[i];
+        }
+        count = still;
+    }
+}

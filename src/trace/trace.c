@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The public door: checks the arguments, settles what the call needs, and hands the rays over in
+ * chunks. */
+#include "../base/arguments.h"
+#include "../bound/bound_check.h"
+#include "driver.h"
+
+enum { FIELD_FLAGS = SPT_FIELD_CONVEX, SETTINGS_FLAGS = SPT_SKIP_START | SPT_STOP_INSIDE };
+
+int spti_field_copy(spt_field *to, spt_bound *bound, const spt_field *from) {
+    *to = spt_field_default();
+    if (from == NULL || !spti_copy_sized(to, from, sizeof *to)) return 0;
+    if (to->batch == NULL && to->point == NULL) return 0;
+    if (!spti_within(to->lipschitz, 0x1p-100f, 0x1p100f)) return 0;
+    if ((to->flags & ~(uint32_t)FIELD_FLAGS) != 0) return 0;
+    return to->bound == NULL || spti_bound_copy(bound, to->bound);
+}
+
+static int copy_settings(spt_settings *to, const spt_settings *from) {
+    memset(to, 0, sizeof *to); /* not the defaults: those would link their method */
+    to->struct_size = sizeof *to;
+    if (from == NULL || !spti_copy_sized(to, from, sizeof *to)) return 0;
+    if (to->method == NULL || (to->flags & ~(uint32_t)SETTINGS_FLAGS) != 0) return 0;
+    if (to->max_lanes != 0 && to->max_lanes != 1 && to->max_lanes != 4 && to->max_lanes != 8 &&
+        to->max_lanes != 16) {
+        return 0;
+    }
+    return to->epsilon > 0.0f && spti_finite(to->epsilon) &&
+           spti_within(to->pixel_radius, 0.0f, FLT_MAX) && spti_within(to->size, 0.0f, FLT_MAX) &&
+           to->relaxation < 2.0f && spti_within(to->relaxation, 1.0f, 2.0f) &&
+           spti_within(to->extrapolation, 0.0f, 1.0f) && to->slope_blend > 0.0f &&
+           spti_within(to->slope_blend, 0.0f, 1.0f) && spti_within(to->step_cap, 1.0f, 100.0f);
+}
+
+/* Whether count values of this stride can lie in memory at all. */
+static int fits(ptrdiff_t stride, size_t count) {
+    const size_t most = PTRDIFF_MAX;
+    const size_t step = stride < 0 ? (size_t)0 - (size_t)stride : (size_t)stride;
+    return count <= most && step <= most && (step == 0 || count - 1 <= (most - 4) / step);
+}
+
+static int check_rays(const spt_rays *rays, size_t count) {
+    const spt_column *const columns[] = {
+        &rays->origin[0],    &rays->origin[1],    &rays->origin[2], &rays->direction[0],
+        &rays->direction[1], &rays->direction[2], &rays->t_min,     &rays->t_max,
+        &rays->path,         &rays->active};
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; ++i) {
+        if (columns[i]->first == NULL && i < 6) return 0;
+        if (columns[i]->first != NULL && !fits(columns[i]->stride, count)) return 0;
+    }
+    return 1;
+}
+
+static int check_hits(const spt_hits *hits, size_t count) {
+    const spt_sink *const sinks[] = {&hits->t,           &hits->residual,        &hits->outcome,
+                                     &hits->evaluations, &hits->flags,           &hits->component,
+                                     &hits->candidate_t, &hits->candidate_ratio, &hits->fallbacks};
+    for (size_t i = 0; i < sizeof sinks / sizeof *sinks; ++i) {
+        if (sinks[i]->first == NULL) continue;
+        if (sinks[i]->stride == 0 && count > 1) return 0;
+        if (!fits(sinks[i]->stride, count)) return 0;
+    }
+    return 1;
+}
+
+static void settle_wants(spti_call *call) {
+    const spt_hits *hits = &call->hits;
+    const int counted = call->statistics != NULL;
+    if (hits->candidate_t.first != NULL || hits->candidate_ratio.first != NULL) {
+        call->wants |= SPTI_WANT_CANDIDATE;
+    }
+    if (hits->flags.first != NULL || counted) call->wants |= SPTI_WANT_SLOPE;
+    if (hits->fallbacks.first != NULL || counted) call->wants |= SPTI_WANT_FALLBACKS;
+}
+
+/* The arrays that hold something in this call; the others are not moved. */
+static void settle_arrays(spti_call *call) {
+    const spt_method *method = call->settings.method;
+    for (int array = 0; array < SPTI_ARRAYS; ++array) {
+        int held = 1;
+        if (array == SPTI_MEMORY) held = method->memory > 0;
+        if (array == SPTI_PENDING_T) held = method->pending || method->memory > 1;
+        if (array == SPTI_PENDING_VALUE) held = method->pending;
+        if (array == SPTI_STEEPEST) held = (call->wants & SPTI_WANT_SLOPE) != 0;
+        if (array == SPTI_FALLBACKS) held = (call->wants & SPTI_WANT_FALLBACKS) != 0;
+        if (array == SPTI_CANDIDATE_T || array == SPTI_CANDIDATE_RATIO) {
+            held = (call->wants & SPTI_WANT_CANDIDATE) != 0;
+        }
+        if (held) call->arrays[call->array_count++] = (unsigned char)array;
+    }
+}
+
+static void settle_march(spti_call *call) {
+    const spt_settings *settings = &call->settings;
+    const spt_bound *bound = call->field.bound != NULL ? &call->bound : NULL;
+    const float extent = bound != NULL ? spti_bound_size(bound) : 0.0f;
+    call->march.pixel_radius = settings->pixel_radius;
+    call->march.relaxation = settings->relaxation;
+    call->march.extrapolation = settings->extrapolation;
+    call->march.slope_blend = settings->slope_blend;
+    call->march.step_cap = settings->step_cap;
+    call->march.epsilon = settings->epsilon;
+    call->march.size = settings->size > extent ? settings->size : extent;
+    call->march.inverse_lipschitz = 1.0f / call->field.lipschitz;
+    call->march.bound = bound;
+}
+
+spt_status spt_trace(const spt_field *field, const spt_settings *settings, size_t count,
+                     const spt_rays *rays, const spt_hits *hits, spt_statistics *statistics) {
+    spti_call call;
+    memset(&call, 0, sizeof call);
+    if (!spti_field_copy(&call.field, &call.bound, field)) return SPT_BAD_ARGUMENT;
+    if (!copy_settings(&call.settings, settings)) return SPT_BAD_ARGUMENT;
+    if (call.settings.method->needs_convex && !(call.field.flags & SPT_FIELD_CONVEX)) {
+        return SPT_BAD_ARGUMENT;
+    }
+    if (statistics != NULL && statistics->struct_size < sizeof *statistics) return SPT_BAD_ARGUMENT;
+    if (count == 0) return SPT_OK;
+    if (rays == NULL || hits == NULL) return SPT_BAD_ARGUMENT;
+    if (!check_rays(rays, count) || !check_hits(hits, count)) return SPT_BAD_ARGUMENT;
+    call.rays = *rays;
+    call.hits = *hits;
+    call.statistics = statistics;
+    call.isa = spti_isa_choose(call.settings.max_lanes);
+    settle_wants(&call);
+    settle_arrays(&call);
+    settle_march(&call);
+    call.pass = call.settings.method->march[call.isa][call.wants];
+    if (statistics != NULL) statistics->lanes = (uint32_t)spti_isa_lanes(call.isa);
+    for (size_t first = 0; first < count; first += SPT_BATCH) {
+        const size_t left = count - first;
+        spti_trace_chunk(&call, first, left < SPT_BATCH ? left : SPT_BATCH);
+    }
+    return SPT_OK;
+}
+
+const char *spt_method_name(const spt_method *method) {
+    return method != NULL ? method->name : NULL;
+}

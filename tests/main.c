@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The test program: runs the suites of suites.h and ends with "N passed, N failed". */
+#include "check.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { seed = 20141202, printed_failures = 3 };
+
+static struct {
+    char **filters;
+    int filter_count;
+    int passed, failed, skipped;
+    int failures; /* of the running test */
+    int skip;     /* the running test asked for it */
+    uint32_t random;
+    char context[256], said[512];
+} state;
+
+static int wanted(const char *name) {
+    for (int i = 0; i < state.filter_count; ++i) {
+        if (strncmp(name, state.filters[i], strlen(state.filters[i])) == 0) return 1;
+    }
+    return state.filter_count == 0;
+}
+
+void check_run(const char *name, void (*test)(void)) {
+    if (!wanted(name)) return;
+    state.failures = 0;
+    state.skip = 0;
+    state.random = seed;
+    state.context[0] = state.said[0] = '\0';
+    test();
+    if (state.failures != 0) {
+        ++state.failed;
+        printf("FAILED %s: %d checks\n", name, state.failures);
+    } else if (state.skip) {
+        ++state.skipped;
+    } else {
+        ++state.passed;
+    }
+    fflush(stdout);
+}
+
+void check_that(int holds, const char *condition, const char *file, int line) {
+    if (!holds) {
+        if (state.failures < printed_failures) {
+            printf("%s:%d: %s", file, line, condition);
+            if (state.context[0] != '\0') printf(" [%s]", state.context);
+            if (state.said[0] != '\0') printf(": %s", state.said);
+            printf("\n");
+        }
+        ++state.failures;
+    }
+    state.said[0] = '\0';
+}
+
+void check_context(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(state.context, sizeof state.context, format, arguments);
+    va_end(arguments);
+}
+
+void check_say(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(state.said, sizeof state.said, format, arguments);
+    va_end(arguments);
+}
+
+void check_skip(const char *reason) {
+    const char *require = getenv("SPT_REQUIRE");
+    printf("skipped: %s\n", reason);
+    if (require != NULL && strcmp(require, "1") == 0) {
+        ++state.failures;
+    } else {
+        state.skip = 1;
+    }
+}
+
+uint32_t check_random(void) {
+    uint32_t x = state.random += 0x9e3779b9u; /* splitmix32 */
+    x = (x ^ (x >> 16)) * 0x85ebca6bu;
+    x = (x ^ (x >> 13)) * 0xc2b2ae35u;
+    return x ^ (x >> 16);
+}
+
+double check_uniform(double low, double high) {
+    return low + (high - low) * (check_random() / 4294967296.0);
+}
+
+uint32_t check_bits(float a) {
+    uint32_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    return bits;
+}
+
+int check_same_bits(float a, float b) {
+    return check_bits(a) == check_bits(b);
+}
+
+#define SUITE(name) void suite_##name(void);
+#include "suites.h"
+#undef SUITE
+
+int main(int count, char **arguments) {
+    state.filters = arguments + 1;
+    state.filter_count = count - 1;
+    printf("random numbers from seed %d\n", seed);
+#define SUITE(name) suite_##name();
+#include "suites.h"
+#undef SUITE
+    printf("%d passed, %d failed", state.passed, state.failed);
+    if (state.skipped != 0) printf(", %d skipped", state.skipped);
+    printf("\n");
+    return state.failed != 0 || state.passed == 0;
+}
