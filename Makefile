@@ -24,6 +24,11 @@ WARN = -pedantic-errors -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-pro
        -Wdouble-promotion -Wconversion -Werror
 LAW = -std=c99 $(WARN) -ffp-contract=off -fno-math-errno -fexceptions -fvisibility=hidden
 COMPILE = $(CC) $(LAW) -O3 -MMD -Iinclude
+# V=1 shows the commands.
+ifndef V
+Q := @
+SAY = @echo '  $(1)'
+endif
 
 # ---- What the compiler can build ----------------------------------------------------------------
 
@@ -76,13 +81,15 @@ FORCE:
 
 $(PLAIN:src/%.c=$B/src/%.o): $B/src/%.o: src/%.c $B/setup
 	@mkdir -p $(@D)
-	$(COMPILE) -fPIC $(HAVE) $(CFLAGS) -c $< -o $@
+	$(call SAY,$@)
+	$(Q)$(COMPILE) -fPIC $(HAVE) $(CFLAGS) -c $< -o $@
 
 # $(1) instruction set
 define chunk_object
 $B/src/backend/chunk_$(1).o: src/backend/chunk.c $B/setup
 	@mkdir -p $$(@D)
-	$$(COMPILE) -fPIC $$(HAVE) $$(flags_$(1)) -DSPTI_PREPARE=spti_prepare_$(1) \
+	$$(call SAY,$$@)
+	$$(Q)$$(COMPILE) -fPIC $$(HAVE) $$(flags_$(1)) -DSPTI_PREPARE=spti_prepare_$(1) \
 	  -DSPTI_COMPACT=spti_compact_$(1) $$(CFLAGS) -c $$< -o $$@
 endef
 $(foreach isa,$(ISAS),$(eval $(call chunk_object,$(isa))))
@@ -91,7 +98,8 @@ $(foreach isa,$(ISAS),$(eval $(call chunk_object,$(isa))))
 define method_object
 $B/src/methods/$(1).o: src/backend/method.c $B/setup
 	@mkdir -p $$(@D)
-	$$(COMPILE) -fPIC $$(HAVE) -DSPTI_METHOD=$(1) -DSPTI_RULE='"../methods/$(1).h"' $$(CFLAGS) \
+	$$(call SAY,$$@)
+	$$(Q)$$(COMPILE) -fPIC $$(HAVE) -DSPTI_METHOD=$(1) -DSPTI_RULE='"../methods/$(1).h"' $$(CFLAGS) \
 	  -c $$< -o $$@
 endef
 $(foreach method,$(METHODS),$(eval $(call method_object,$(method))))
@@ -100,7 +108,8 @@ $(foreach method,$(METHODS),$(eval $(call method_object,$(method))))
 define march_object
 $B/src/methods/$(1)_$(2).o: src/backend/march.c $B/setup
 	@mkdir -p $$(@D)
-	$$(COMPILE) -fPIC $$(HAVE) $$(flags_$(2)) -DSPTI_RULE='"../methods/$(1).h"' \
+	$$(call SAY,$$@)
+	$$(Q)$$(COMPILE) -fPIC $$(HAVE) $$(flags_$(2)) -DSPTI_RULE='"../methods/$(1).h"' \
 	  -DSPTI_MARCH=spti_march_$(1)_$(2) $$(CFLAGS) -c $$< -o $$@
 endef
 $(foreach method,$(METHODS),$(foreach isa,$(MARCH_ISAS),\
@@ -108,14 +117,16 @@ $(foreach method,$(METHODS),$(foreach isa,$(MARCH_ISAS),\
 
 $(STATIC): $(OBJECTS)
 	@rm -f $@
-	$(AR) rcsD $@ $^
+	$(call SAY,$@)
+	$(Q)$(AR) rcsD $@ $^
 
 $B/exports.map: Makefile
 	@mkdir -p $(@D)
 	@printf 'SPHERETRACE_$(MAJOR) { global: spt_*; local: *; };\n' > $@
 
 $(SHARED): $(OBJECTS) $B/exports.map
-	$(CC) -shared -Wl,-soname,libspheretrace.so.$(MAJOR) -Wl,--version-script=$B/exports.map \
+	$(call SAY,$@)
+	$(Q)$(CC) -shared -Wl,-soname,libspheretrace.so.$(MAJOR) -Wl,--version-script=$B/exports.map \
 	  -Wl,--no-undefined $(CFLAGS) $(LDFLAGS) $(OBJECTS) -lm -o $@
 	@ln -sf $(@F) $B/libspheretrace.so.$(MAJOR)
 	@ln -sf libspheretrace.so.$(MAJOR) $B/libspheretrace.so
@@ -124,6 +135,113 @@ $B/spheretrace.pc: src/package/spheretrace.pc.in Makefile include/spheretrace/ba
 	@mkdir -p $(@D)
 	@sed -e 's|@PREFIX@|$(PREFIX)|; s|@LIBDIR@|$(LIBDIR)|; s|@INCLUDEDIR@|$(INCLUDEDIR)|' \
 	  -e 's|@VERSION@|$(VERSION)|' $< > $@
+
+# ---- Scenes and examples ------------------------------------------------------------------------
+
+# The scenes show callers what to do: one source, compiled for each instruction set.
+SCENE_LANES := 1 $(if $(filter sse2,$(ISAS)),4) $(if $(filter avx2,$(ISAS)),8) \
+               $(if $(filter avx512,$(ISAS)),16)
+scene_flags_1 := -fno-tree-vectorize
+scene_flags_8 := -mavx2
+scene_flags_16 := -mavx512f -mprefer-vector-width=512
+SCENE_MISSING := $(if $(filter 4,$(SCENE_LANES)),,-DSCENE_ONLY_SCALAR) \
+                 $(if $(filter 8,$(SCENE_LANES)),,-DSCENE_NO_AVX2) \
+                 $(if $(filter 16,$(SCENE_LANES)),,-DSCENE_NO_AVX512)
+SCENE_PLAIN := $(filter-out examples/scenes/scenes_lanes.c,$(wildcard examples/scenes/*.c))
+SCENES := $B/examples/scenes.a
+OWN := $(COMPILE) -Iexamples -Itests
+
+define scene_object
+$B/examples/scenes/scenes_lanes_$(1).o: examples/scenes/scenes_lanes.c $B/setup
+	@mkdir -p $$(@D)
+	$$(call SAY,$$@)
+	$$(Q)$$(COMPILE) -DSCENE_LANES=$(1) $$(scene_flags_$(1)) $$(CFLAGS) -c $$< -o $$@
+endef
+$(foreach lanes,$(SCENE_LANES),$(eval $(call scene_object,$(lanes))))
+
+$(SCENES): $(SCENE_PLAIN:%.c=$B/%.o) $(SCENE_LANES:%=$B/examples/scenes/scenes_lanes_%.o)
+	@rm -f $@
+	$(Q)$(AR) rcsD $@ $^
+
+$B/examples/scenes/%.o: examples/scenes/%.c $B/setup
+	@mkdir -p $(@D)
+	$(call SAY,$@)
+	$(Q)$(COMPILE) $(SCENE_MISSING) $(CFLAGS) -c $< -o $@
+
+# Programs of one idea each; what they share is linked as far as they need it.
+PROGRAMS := one_ray batch_callback methods_compared render
+SHARED_SOURCES := $(filter-out $(PROGRAMS:%=examples/%.c),$(wildcard examples/*.c))
+OIIO ?= $(shell pkg-config --exists OpenImageIO 2>/dev/null && \
+          command -v $(firstword $(CXX)) >/dev/null 2>&1 && echo 1 || echo 0)
+EXAMPLE_LINK := $(CC)
+ifeq ($(OIIO),1)
+OIIO_FLAGS := -DSPT_EXAMPLES_OIIO
+OIIO_OBJECT := $B/examples/image_oiio.o
+OIIO_LIBS := $(shell pkg-config --libs OpenImageIO)
+EXAMPLE_LINK := $(CXX)
+$(OIIO_OBJECT): examples/image_oiio.cc $B/setup
+	@mkdir -p $(@D)
+	$(call SAY,$@)
+	$(Q)$(CXX) -std=c++17 -O2 -MMD -Iexamples $(shell pkg-config --cflags OpenImageIO) \
+	  $(CFLAGS) -c $< -o $@
+endif
+
+$B/examples/%.o: examples/%.c $B/setup
+	@mkdir -p $(@D)
+	$(call SAY,$@)
+	$(Q)$(COMPILE) $(OIIO_FLAGS) $(CFLAGS) -c $< -o $@
+
+$B/examples/shared.a: $(SHARED_SOURCES:%.c=$B/%.o) $(OIIO_OBJECT)
+	@rm -f $@
+	$(Q)$(AR) rcsD $@ $^
+
+$(PROGRAMS:%=$B/%$(EXE)): $B/%$(EXE): $B/examples/%.o $B/examples/shared.a $(SCENES) $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(EXAMPLE_LINK) $(CFLAGS) $(LDFLAGS) $^ $(OIIO_LIBS) -lm -o $@
+
+demo: $B/render$(EXE)
+	$(RUN) $B/render$(EXE) --gallery $B/gallery
+
+# ---- Tests --------------------------------------------------------------------------------------
+
+TEST_SOURCES := tests/main.c \
+  $(wildcard $(foreach folder,unit parity oracle stress golden,tests/$(folder)/*.c))
+HEADERS := $(wildcard include/spheretrace/*.h)
+CXX_HERE := $(shell command -v $(firstword $(CXX)) 2>/dev/null)
+
+$B/tests/%.o: tests/%.c $B/setup
+	@mkdir -p $(@D)
+	$(call SAY,$@)
+	$(Q)$(OWN) $(CFLAGS) -c $< -o $@
+
+$B/check$(EXE): $(TEST_SOURCES:%.c=$B/%.o) $B/examples/shared.a $(SCENES) $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(EXAMPLE_LINK) $(CFLAGS) $(LDFLAGS) $^ $(OIIO_LIBS) -lm -pthread -o $@
+
+# Each public header alone, as C99 and, where there is a C++ compiler, as C++11.
+$B/headers.ok: $(HEADERS) $B/setup
+	@for header in $(HEADERS); do \
+	  printf '\043include "%s"\n' $$header >$B/alone.c; \
+	  $(CC) -std=c99 $(WARN) -I. -Iinclude -fsyntax-only $B/alone.c || exit 1; \
+	  [ -z "$(CXX_HERE)" ] || $(CXX) -std=c++11 -Wall -Wextra -Wshadow -Werror -I. -Iinclude \
+	    -fsyntax-only -x c++ $B/alone.c || exit 1; \
+	done
+	@touch $@
+
+$B/exceptions$(EXE): tests/stress/test_exceptions.cc $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(CXX) -std=c++11 -O2 -Wall -Wextra -Werror -Iinclude $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
+
+check: $B/check$(EXE) $B/headers.ok $(if $(CXX_HERE),$B/exceptions$(EXE)) \
+       $(patsubst %,$B/%$(EXE),one_ray batch_callback methods_compared)
+	@for program in one_ray batch_callback methods_compared; do \
+	  $(RUN) $B/$$program$(EXE) >$B/$$program.log || { cat $B/$$program.log; exit 1; }; \
+	done
+	@sh tests/readme.sh
+	$(if $(CXX_HERE),@$(RUN) $B/exceptions$(EXE))
+	@$(RUN) $B/check$(EXE)
+
+# ---- Installing ---------------------------------------------------------------------------------
 
 install: all
 	install -d $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(INCLUDEDIR)/spheretrace

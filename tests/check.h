@@ -10,6 +10,10 @@
 
 #include <stdint.h>
 
+#define SUITE(name) void suite_##name(void);
+#include "suites.h"
+#undef SUITE
+
 /* Runs a test unless the command line filters it out. It fails if any of its checks does. */
 #define RUN(test) check_run(#test, test)
 void check_run(const char *name, void (*test)(void));

@@ -103,10 +103,6 @@ int check_same_bits(float a, float b) {
     return check_bits(a) == check_bits(b);
 }
 
-#define SUITE(name) void suite_##name(void);
-#include "suites.h"
-#undef SUITE
-
 int main(int count, char **arguments) {
     state.filters = arguments + 1;
     state.filter_count = count - 1;

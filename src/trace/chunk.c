@@ -30,7 +30,7 @@ static void fill(spti_chunk *chunk, int array, float value) {
 /* Loads the active rays of a window; returns how many. */
 static size_t load_chunk(const spti_call *call, spti_chunk *chunk, size_t first, size_t window) {
     const spt_rays *rays = &call->rays;
-    unsigned char picked[SPT_BATCH];
+    unsigned char *const picked = chunk->picked;
     size_t count = 0;
     for (size_t i = 0; i < window; ++i) {
         int32_t active = -1;
@@ -50,7 +50,7 @@ static size_t load_chunk(const spti_call *call, spti_chunk *chunk, size_t first,
     load_column(chunk, SPTI_T, &rays->t_min, 0, picked, count, first);
     load_column(chunk, SPTI_T_MAX, &rays->t_max, INFINITY, picked, count, first);
     load_column(chunk, SPTI_PATH, &rays->path, 0, picked, count, first);
-    for (size_t slot = 0; slot < count; ++slot) chunk->array[SPTI_INDEX][slot] = picked[slot];
+    for (size_t slot = 0; slot < count; ++slot) chunk->array[SPTI_INDEX][slot] = (float)slot;
     for (size_t i = 0; i < call->array_count; ++i) {
         const int array = call->arrays[i];
         if (array >= SPTI_MEMORY) fill(chunk, array, array == SPTI_CANDIDATE_RATIO ? INFINITY : 0);
@@ -85,7 +85,8 @@ static void write_word(const spt_sink *sink, size_t i, const void *word) {
 
 void spti_write_hit(const spti_call *call, const spti_chunk *chunk, size_t slot, size_t first,
                     spti_leave leave) {
-    const size_t index = (size_t)chunk->array[SPTI_INDEX][slot], ray = first + index;
+    const size_t index = (size_t)chunk->array[SPTI_INDEX][slot];
+    const size_t ray = first + chunk->picked[index];
     const int reached = leave.outcome != SPT_MISS && leave.outcome != SPT_BAD_RAY;
     const float t = reached ? chunk->array[SPTI_T][slot] * chunk->unit[index] : INFINITY;
     const float residual = reached ? chunk->array[SPTI_VALUE][slot] : INFINITY;
@@ -149,7 +150,7 @@ static spt_outcome outcome_of(const spti_fates *fates, unsigned bit) {
 /* Writes out the finished rays and closes the gaps; returns how many rays go on. Brackets are set
  * aside and counted. */
 static size_t empty_finished(const spti_call *call, spti_chunk *chunk, size_t count, size_t first,
-                             uint32_t age, const uint32_t *extra, size_t *brackets) {
+                             uint32_t age, const uint16_t *extra, size_t *brackets) {
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         const spti_fates *fates = &chunk->fates[group];
         for (unsigned bit = 0; fates->finished >> bit != 0; ++bit) {
@@ -199,7 +200,7 @@ static int apply_start_options(const spti_call *call, spti_chunk *chunk, size_t 
 
 /* Ends the rays whose budget is used up. Returns whether there was one. */
 static int expire(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t age,
-                  const uint32_t *extra) {
+                  const uint16_t *extra) {
     unsigned any = 0;
     for (size_t slot = 0; slot < count; ++slot) {
         const uint32_t more = extra != NULL ? extra[(size_t)chunk->array[SPTI_INDEX][slot]] : 0;
@@ -213,7 +214,7 @@ static int expire(const spti_call *call, spti_chunk *chunk, size_t count, uint32
 
 /* Marches rays until all have left. extra: by index, evaluations before the first pass, or NULL. */
 static void march_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size_t first,
-                        uint32_t *extra) {
+                        uint16_t *extra) {
     const int options = (call->settings.flags & (SPT_SKIP_START | SPT_STOP_INSIDE)) != 0;
     uint32_t age = 0, most_extra = 0;
     size_t brackets = 0;
@@ -243,7 +244,7 @@ static void march_chunk(const spti_call *call, spti_chunk *chunk, size_t count, 
 /* With the array it needs in a frame of its own. */
 static SPTI_NOINLINE void march_skipping(const spti_call *call, spti_chunk *chunk, size_t count,
                                          size_t first) {
-    uint32_t extra[SPT_BATCH];
+    uint16_t extra[SPT_BATCH];
     memset(extra, 0, sizeof extra);
     march_chunk(call, chunk, count, first, extra);
 }

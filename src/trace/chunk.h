@@ -62,6 +62,7 @@ typedef struct spti_chunk {
     SPTI_ALIGNED(64) float array[SPTI_ARRAYS][SPTI_ROOM];
     SPTI_ALIGNED(64) float distance[SPTI_ROOM]; /* what the callback answered */
     float unit[SPT_BATCH];                      /* t of the caller = unit * t, by index */
+    unsigned char picked[SPT_BATCH];            /* which ray of the window it is, by index */
     spti_fates fates[SPTI_GROUPS];
 } spti_chunk;
 

@@ -49,7 +49,7 @@ void spti_close_brackets(const spti_call *call, spti_chunk *chunk, size_t count,
 /* SPT_SKIP_START: walks the rays of the chunk whose sample at t_min is within the tolerance out of
  * it. extra, by index and zero at first, receives the evaluations that this took. Returns the
  * most. */
-uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t *extra);
+uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count, uint16_t *extra);
 
 /* The tolerance at t for the ray in a slot, in t. */
 float spti_tolerance(const spti_call *call, const spti_chunk *chunk, size_t slot, float t);

@@ -39,7 +39,7 @@ static int within_tolerance(const spti_call *call, const spti_chunk *chunk, size
     return fabsf(radius) < spti_tolerance(call, chunk, slot, t);
 }
 
-uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t *extra) {
+uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count, uint16_t *extra) {
     unsigned char walking[SPT_BATCH];
     size_t walkers = 0;
     uint32_t steps = 0;
@@ -47,7 +47,7 @@ uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count,
         chunk->array[SPTI_VALUE][slot] = chunk->distance[slot];
         if (within_tolerance(call, chunk, slot)) walking[walkers++] = (unsigned char)slot;
     }
-    while (walkers > 0 && steps + 1 < call->settings.budget) {
+    while (walkers > 0 && steps + 1 < call->settings.budget && steps < UINT16_MAX) {
         size_t asked = 0;
         for (size_t i = 0; i < walkers; ++i) {
             const size_t slot = walking[i];
@@ -70,7 +70,7 @@ uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count,
         for (size_t i = 0; i < walkers; ++i) {
             const size_t slot = walking[i];
             chunk->array[SPTI_VALUE][slot] = chunk->distance[i];
-            extra[(size_t)chunk->array[SPTI_INDEX][slot]] = steps;
+            extra[(size_t)chunk->array[SPTI_INDEX][slot]] = (uint16_t)steps;
             if (within_tolerance(call, chunk, slot)) walking[still++] = (unsigned char)slot;
         }
         walkers = still;

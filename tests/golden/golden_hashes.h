@@ -1,0 +1,1 @@
+GOLDEN(none, none, 0, 0)
