@@ -229,7 +229,7 @@ SPT_INLINE spt_mask spt_less_equal(spt_wide a, spt_wide b) {
 /* Both. */
 SPT_INLINE spt_mask spt_mask_and(spt_mask a, spt_mask b) {
 #if SPT_LANES == 16
-    return (__mmask16)(a & b);
+    return _mm512_kand(a, b);
 #elif SPT_LANES == 8
     return _mm256_and_ps(a, b);
 #elif SPT_LANES == 4
@@ -242,7 +242,7 @@ SPT_INLINE spt_mask spt_mask_and(spt_mask a, spt_mask b) {
 /* Either. */
 SPT_INLINE spt_mask spt_mask_or(spt_mask a, spt_mask b) {
 #if SPT_LANES == 16
-    return (__mmask16)(a | b);
+    return _mm512_kor(a, b);
 #elif SPT_LANES == 8
     return _mm256_or_ps(a, b);
 #elif SPT_LANES == 4
@@ -255,7 +255,7 @@ SPT_INLINE spt_mask spt_mask_or(spt_mask a, spt_mask b) {
 /* a but not b. */
 SPT_INLINE spt_mask spt_mask_and_not(spt_mask a, spt_mask b) {
 #if SPT_LANES == 16
-    return (__mmask16)(a & ~b);
+    return _mm512_kandn(b, a);
 #elif SPT_LANES == 8
     return _mm256_andnot_ps(b, a);
 #elif SPT_LANES == 4

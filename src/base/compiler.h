@@ -19,6 +19,17 @@
 #define SPTI_ALIGNED(bytes)
 #endif
 
+/* The place of the lowest set bit of a number that is not zero. */
+static inline unsigned spti_lowest_bit(unsigned bits) {
+#if defined(__GNUC__)
+    return (unsigned)__builtin_ctz(bits);
+#else
+    unsigned place = 0;
+    while (!(bits >> place & 1)) ++place;
+    return place;
+#endif
+}
+
 /* Joins two or three words after expanding them, for the names of kernel instances. */
 #define SPTI_JOIN2(a, b) SPTI_JOIN2_(a, b)
 #define SPTI_JOIN2_(a, b) a##_##b

@@ -4,7 +4,7 @@
  * running average of the radius per unit of t (Bán & Valasek 2023). M = -1 makes plain steps. */
 #include "methods.h"
 
-enum { rule_probes = 1, rule_pending = 1, rule_memory = 1, rule_needs_convex = 0 };
+enum { rule_probes = 1, rule_pending = 1, rule_memory = 1, rule_blends = 1, rule_needs_convex = 0 };
 
 SPTI_INLINE void rule_start(spt_wide *memory) {
     memory[0] = spt_splat(-1.0f);

@@ -4,7 +4,7 @@
  * Bálint & Valasek 2018, Algorithm 1). */
 #include "methods.h"
 
-enum { rule_probes = 0, rule_pending = 0, rule_memory = 0, rule_needs_convex = 0 };
+enum { rule_probes = 0, rule_pending = 0, rule_memory = 0, rule_blends = 0, rule_needs_convex = 0 };
 
 SPTI_INLINE void rule_start(spt_wide *memory) {
     (void)memory;

@@ -6,7 +6,7 @@
  * For a start inside, -f is concave and the argument fails: plain steps. */
 #include "methods.h"
 
-enum { rule_probes = 0, rule_pending = 0, rule_memory = 2, rule_needs_convex = 1 };
+enum { rule_probes = 0, rule_pending = 0, rule_memory = 2, rule_blends = 0, rule_needs_convex = 1 };
 
 /* The memory is the last step and the radius before it; a first step is recognised by its zero. */
 SPTI_INLINE void rule_start(spt_wide *memory) {

@@ -8,12 +8,14 @@
  *     rule_probes        1: its steps may exceed the certified radius and must be tested
  *     rule_pending       1: a rejected probe is kept, and reached when a later sphere meets its own
  *     rule_memory        floats it keeps a ray: 0 to 2, at most 1 with rule_pending
+ *     rule_blends        1: its memory adds to the one before, so it is shown every certified sample;
+ *                        0: only the last pair of samples matters to it
  *     rule_needs_convex  1: legal only for fields with SPT_FIELD_CONVEX
  *     rule_start(...)    the memory of a ray with one sample
  *     rule_step(...)     the step it would like to make
  *     rule_accepted(...) the memory after a certified sample
  *     rule_rejected(...) the memory after a probe that was turned down
- * The first four are constants, so that what a rule does not ask for leaves no code. Any step is
+ * The first five are constants, so that what a rule does not ask for leaves no code. Any step is
  * legal: the driver never goes less than the certified radius, tests each probe beyond it, and
  * keeps within t_max. */
 #ifndef SPTI_METHODS_H

@@ -5,7 +5,7 @@
  * takes fewer evaluations (11.62 against 12.01 a ray over ten scenes). */
 #include "methods.h"
 
-enum { rule_probes = 1, rule_pending = 1, rule_memory = 0, rule_needs_convex = 0 };
+enum { rule_probes = 1, rule_pending = 1, rule_memory = 0, rule_blends = 0, rule_needs_convex = 0 };
 
 SPTI_INLINE void rule_start(spt_wide *memory) {
     (void)memory;

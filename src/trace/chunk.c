@@ -7,18 +7,23 @@
 #include "../base/arguments.h"
 #include "driver.h"
 
-/* A column's value, or what stands for an absent one. By memcpy, since values need no alignment. */
-static float read_float(const spt_column *column, size_t i) {
-    float value;
-    memcpy(&value, (const char *)column->first + (ptrdiff_t)i * column->stride, sizeof value);
-    return value;
-}
-
+/* Reads the picked rays of a column, or what stands for an absent one. By memcpy, since values need
+ * no alignment. */
 static void load_column(spti_chunk *chunk, int array, const spt_column *column, float absent,
-                        const unsigned char *picked, size_t count, size_t first) {
+                        size_t count, size_t first, size_t window) {
     float *const to = chunk->array[array];
-    for (size_t slot = 0; slot < count; ++slot) {
-        to[slot] = column->first != NULL ? read_float(column, first + picked[slot]) : absent;
+    const char *const base = (const char *)column->first + (ptrdiff_t)first * column->stride;
+    if (column->first == NULL) {
+        for (size_t slot = 0; slot < count; ++slot) to[slot] = absent;
+    } else if (count == window) {
+        const char *from = base;
+        for (size_t slot = 0; slot < count; ++slot, from += column->stride) {
+            memcpy(&to[slot], from, sizeof *to);
+        }
+    } else {
+        for (size_t slot = 0; slot < count; ++slot) {
+            memcpy(&to[slot], base + chunk->picked[slot] * column->stride, sizeof *to);
+        }
     }
     for (size_t slot = count; slot % SPTI_GROUP != 0; ++slot) to[slot] = to[count - 1];
 }
@@ -27,35 +32,41 @@ static void fill(spti_chunk *chunk, int array, float value) {
     for (size_t slot = 0; slot < SPTI_ROOM; ++slot) chunk->array[array][slot] = value;
 }
 
+/* Which rays of a window are active; returns how many. */
+static size_t pick(const spt_column *active, unsigned char *picked, size_t first, size_t window) {
+    size_t count = 0;
+    if (active->first == NULL) {
+        for (size_t i = 0; i < window; ++i) picked[i] = (unsigned char)i;
+        return window;
+    }
+    for (size_t i = 0; i < window; ++i) {
+        int32_t value;
+        memcpy(&value, (const char *)active->first + (ptrdiff_t)(first + i) * active->stride,
+               sizeof value);
+        picked[count] = (unsigned char)i;
+        count += value != 0;
+    }
+    return count;
+}
+
 /* Loads the active rays of a window; returns how many. */
 static size_t load_chunk(const spti_call *call, spti_chunk *chunk, size_t first, size_t window) {
     const spt_rays *rays = &call->rays;
-    unsigned char *const picked = chunk->picked;
-    size_t count = 0;
-    for (size_t i = 0; i < window; ++i) {
-        int32_t active = -1;
-        if (rays->active.first != NULL) {
-            memcpy(&active,
-                   (const char *)rays->active.first + (ptrdiff_t)(first + i) * rays->active.stride,
-                   sizeof active);
-        }
-        picked[count] = (unsigned char)i;
-        count += active != 0;
-    }
+    const size_t count = pick(&rays->active, chunk->picked, first, window);
     if (count == 0) return 0;
     for (int axis = 0; axis < 3; ++axis) {
-        load_column(chunk, SPTI_ORIGIN + axis, &rays->origin[axis], 0, picked, count, first);
-        load_column(chunk, SPTI_DIRECTION + axis, &rays->direction[axis], 0, picked, count, first);
+        load_column(chunk, SPTI_ORIGIN + axis, &rays->origin[axis], 0, count, first, window);
+        load_column(chunk, SPTI_DIRECTION + axis, &rays->direction[axis], 0, count, first, window);
     }
-    load_column(chunk, SPTI_T, &rays->t_min, 0, picked, count, first);
-    load_column(chunk, SPTI_T_MAX, &rays->t_max, INFINITY, picked, count, first);
-    load_column(chunk, SPTI_PATH, &rays->path, 0, picked, count, first);
+    load_column(chunk, SPTI_T, &rays->t_min, 0, count, first, window);
+    load_column(chunk, SPTI_T_MAX, &rays->t_max, INFINITY, count, first, window);
+    load_column(chunk, SPTI_PATH, &rays->path, 0, count, first, window);
     for (size_t slot = 0; slot < count; ++slot) chunk->array[SPTI_INDEX][slot] = (float)slot;
     for (size_t i = 0; i < call->array_count; ++i) {
         const int array = call->arrays[i];
         if (array >= SPTI_MEMORY) fill(chunk, array, array == SPTI_CANDIDATE_RATIO ? INFINITY : 0);
     }
-    fill(chunk, SPTI_VALUE, INFINITY);
+    if (call->settings.budget == 0) fill(chunk, SPTI_VALUE, INFINITY); /* nothing evaluated */
     return count;
 }
 
@@ -153,8 +164,8 @@ static size_t empty_finished(const spti_call *call, spti_chunk *chunk, size_t co
                              uint32_t age, const uint16_t *extra, size_t *brackets) {
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         const spti_fates *fates = &chunk->fates[group];
-        for (unsigned bit = 0; fates->finished >> bit != 0; ++bit) {
-            if (!(fates->finished >> bit & 1)) continue;
+        for (unsigned left = fates->finished; left != 0; left &= left - 1) {
+            const unsigned bit = spti_lowest_bit(left);
             const size_t slot = group * SPTI_GROUP + bit;
             const uint32_t more = extra != NULL ? extra[(size_t)chunk->array[SPTI_INDEX][slot]] : 0;
             if (fates->bracketed >> bit & 1) {

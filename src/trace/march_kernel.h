@@ -89,15 +89,16 @@ SPTI_INLINE void march_slope(const spti_pair *pair, spt_wide floor, spt_mask cer
     audit->steepest = spt_select(spt_mask_and(certified, steeper), slope, audit->steepest);
 }
 
-/* The rule's memory after a certified sample, in the lanes of the mask. */
+/* The rule's memory after a certified sample, in the lanes of the mask. No ray leaps in its first
+ * pass. */
 SPTI_INLINE void march_accept(const march_constants *all, const spti_pair *pair, spt_mask moved,
-                              spt_mask first, march_state *ray) {
+                              march_state *ray) {
     spt_wide started[2], accepted[2];
     for (int i = 0; i < 2; ++i) started[i] = accepted[i] = ray->memory[i];
     rule_start(started);
     rule_accepted(&all->rule, pair, accepted);
     for (int i = 0; i < rule_memory; ++i) {
-        accepted[i] = spt_select(first, started[i], accepted[i]);
+        accepted[i] = spt_select(all->first, started[i], accepted[i]);
         ray->memory[i] = spt_select(moved, accepted[i], ray->memory[i]);
     }
 }
@@ -173,7 +174,7 @@ SPTI_INLINE unsigned march_vector(spti_chunk *chunk, const march_constants *all,
         audit.steepest = march_load(chunk, SPTI_STEEPEST, at);
         march_slope(&pair, floor, number, &audit);
     }
-    march_accept(all, &pair, moved, all->first, &ray);
+    if (rule_blends || !rule_pending) march_accept(all, &pair, moved, &ray);
     if (rule_probes) {
         spt_wide turned_down[2] = {ray.memory[0], ray.memory[1]};
         rule_rejected(turned_down);
@@ -203,8 +204,13 @@ SPTI_INLINE unsigned march_vector(spti_chunk *chunk, const march_constants *all,
         const spt_mask meets = march_overlap(all, ray.radius, radius, leap, there);
         const spt_mask leaps =
             spt_mask_and_not(spt_mask_and(ahead, meets), spt_mask_or(hit, nonfinite));
-        const spti_pair leapt = {spt_max(leap, spt_splat(FLT_MIN)), ray.radius, radius};
-        march_accept(all, &leapt, leaps, nowhere, &ray);
+        spti_pair leapt = {spt_max(leap, spt_splat(FLT_MIN)), ray.radius, radius};
+        if (!rule_blends) {
+            leapt.step = spt_select(leaps, leapt.step, pair.step);
+            leapt.before = spt_select(leaps, leapt.before, pair.before);
+            leapt.after = spt_select(leaps, leapt.after, pair.after);
+        }
+        march_accept(all, &leapt, rule_blends ? leaps : spt_mask_or(moved, leaps), &ray);
         ray.t = spt_select(leaps, ray.pending_t, ray.t);
         ray.value = spt_select(leaps, ray.pending_value, ray.value);
         ray.radius = spt_select(leaps, radius, ray.radius);
