@@ -3,6 +3,7 @@
  * THE LIST of test suites; each is a function suite_NAME in some file of tests. */
 SUITE(shapes)
 SUITE(scenes)
+SUITE(scenes_known)
 SUITE(image)
 SUITE(oracle)
 SUITE(papers)

@@ -19,8 +19,8 @@ typedef struct scene {
     uint32_t flags;         /* as spt_field.flags */
     const spt_bound *bound; /* as spt_field.bound */
     double eye[3], target[3];
-    double field_of_view;   /* horizontal, degrees */
-    double t_max;           /* for unit directions */
+    double field_of_view;            /* horizontal, degrees */
+    double t_max;                    /* for unit directions */
     spt_distance_batch_fn *batch[4]; /* built for 1, 4, 8 and 16 lanes; the widest that was built
                                       * stands in for a wider one */
     spt_distance_fn *point;          /* one point */

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The table of scenes and their cameras. The callbacks are in scenes_lanes.c, which is built once
+ * for each instruction set. */
+#include "scene_source.h"
+#include "scenes.h"
+#include "scenes_widths.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Constants for the member bound. */
+#define BALL(x, y, z, radius) \
+    &(const spt_bound) { \
+        sizeof(spt_bound), SPT_BOUND_SPHERE, {x, y, z}, radius, {0}, { \
+            0 \
+        } \
+    }
+#define BOX(low_x, low_y, low_z, high_x, high_y, high_z) \
+    &(const spt_bound) { \
+        sizeof(spt_bound), SPT_BOUND_BOX, {0}, 0, {low_x, low_y, low_z}, { \
+            high_x, high_y, high_z \
+        } \
+    }
+
+#define SCENE(scene_name, ...) \
+    DECLARE_BATCHES(scene_name) \
+    spt_distance_fn scene_##scene_name##_point; \
+    scene_reference_fn scene_##scene_name##_reference; \
+    static const scene scene_name##_entry = {.name = #scene_name, \
+                                             .batch = BATCHES(scene_name), \
+                                             .point = scene_##scene_name##_point, \
+                                             .reference = scene_##scene_name##_reference, \
+                                             __VA_ARGS__};
+#include "scenes_list.h"
+
+const scene *const scenes[] = {
+#define SCENE(name, ...) &name##_entry,
+#include "scenes_list.h"
+};
+const size_t scene_count = sizeof scenes / sizeof scenes[0];
+
+const scene *scene_named(const char *name) {
+    for (size_t i = 0; i < scene_count; ++i) {
+        if (strcmp(scenes[i]->name, name) == 0) return scenes[i];
+    }
+    return NULL;
+}
+
+spt_field scene_field(const scene *shown, int lanes) {
+    spt_field field = spt_field_default();
+    if (lanes == 0) {
+        field.point = shown->point;
+    } else {
+        field.batch = shown->batch[batch_index(lanes)];
+    }
+    field.lipschitz = shown->lipschitz;
+    field.flags = shown->flags;
+    field.bound = shown->bound;
+    return field;
+}

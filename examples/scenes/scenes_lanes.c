@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The batch callbacks of all scenes for one instruction set. Compiled once for each, with its flags
+ * and SCENE_LANES 1, 4, 8 or 16; that for 1 also has the callbacks for one point. */
+#ifndef SCENE_LANES
+#define SCENE_LANES 1
+#endif
+#define SPT_LANES SCENE_LANES
+#include "scene_source.h"
+
+#define PASTE_EXPANDED(name, lanes) scene_##name##_batch_##lanes
+#define PASTE(name, lanes) PASTE_EXPANDED(name, lanes)
+#define BATCH(name) PASTE(name, SCENE_LANES)
+
+#if SCENE_LANES == 1
+#define POINT_CALLBACK(name) \
+    spt_distance_fn scene_##name##_point; \
+    float scene_##name##_point(void *user, float x, float y, float z) { \
+        (void)user; \
+        return scene_##name##_distance(spt_point_of(x, y, z)); \
+    }
+#else
+#define POINT_CALLBACK(name)
+#endif
+
+#define BATCH_CALLBACK(name) \
+    spt_distance_batch_fn BATCH(name); \
+    void BATCH(name)(void *user, size_t n, const float *restrict x, const float *restrict y, \
+                     const float *restrict z, float *restrict distance)
+
+#define SCENE(name, ...) \
+    BATCH_CALLBACK(name) { \
+        (void)user; \
+        for (size_t i = 0; i < n; ++i) { \
+            distance[i] = scene_##name##_distance(spt_point_of(x[i], y[i], z[i])); \
+        } \
+    } \
+    POINT_CALLBACK(name)
+
+/* n is a multiple of 16, so that blocks of two constant sizes do. */
+#define SCENE_BLOCKS(name, ...) \
+    BATCH_CALLBACK(name) { \
+        size_t i = 0; \
+        (void)user; \
+        for (; i + SCENE_BLOCK <= n; i += SCENE_BLOCK) { \
+            scene_##name##_block(SCENE_BLOCK, x + i, y + i, z + i, distance + i); \
+        } \
+        for (; i < n; i += 16) scene_##name##_block(16, x + i, y + i, z + i, distance + i); \
+    } \
+    POINT_CALLBACK(name)
+
+#define SCENE_VECTORS(name, ...) \
+    BATCH_CALLBACK(name) { \
+        (void)user; \
+        scene_##name##_vectors(n, x, y, z, distance); \
+    } \
+    POINT_CALLBACK(name)
+
+#include "scenes_list.h"
+
+/* The objects of the village one by one, for village.c. */
+BATCH_CALLBACK(village_house) {
+    const village_house *const house = user;
+    for (size_t i = 0; i < n; ++i) {
+        distance[i] = village_house_distance(house, spt_point_of(x[i], y[i], z[i]));
+    }
+}
+
+BATCH_CALLBACK(village_ground) {
+    (void)user;
+    for (size_t i = 0; i < n; ++i) {
+        distance[i] = village_ground_distance(spt_point_of(x[i], y[i], z[i]));
+    }
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * THE LIST of scenes: each header holds the source of some, and at its end a line for each of them,
+ *     SCENE(name, members of struct scene)         the callbacks loop over scene_NAME_distance
+ *     SCENE_BLOCKS(name, members of struct scene)  they also use scene_NAME_block: many objects
+ *     SCENE_VECTORS(name, members of struct scene) they use scene_NAME_vectors, which has simd.h
+ * The including file defines SCENE, and the others where they make a difference to it. */
+#ifndef SCENE_BLOCKS
+#define SCENE_BLOCKS SCENE
+#endif
+#ifndef SCENE_VECTORS
+#define SCENE_VECTORS SCENE
+#endif
+
+#include "scene_primitives.h"
+#include "scene_mandelbulb.h"
+#include "scene_dodecahedron.h"
+#include "scene_village.h"
+#include "scene_solids.h"
+#include "scene_boxes.h"
+#include "scene_soft.h"
+#include "scene_deformed.h"
+#include "scene_arches.h"
+
+#undef SCENE
+#undef SCENE_BLOCKS
+#undef SCENE_VECTORS

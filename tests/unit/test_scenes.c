@@ -1,0 +1,355 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The shared scenes keep what they promise: the same bits from every callback, the double-precision
+ * reference within rounding, their Lipschitz constants, convexity and bounds. Left out: known
+ * answers and cameras, see test_scenes_known.c, and tracing them. */
+#include "../check.h"
+
+#include "scenes/scene_deformed.h"
+#include "scenes/scenes.h"
+#include "scenes/village.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double unit_roundoff = 5.9604644775390625e-8; /* 2^-24 */
+
+/* Points as a batch callback wants them: 64-byte aligned, in a union that is as large. */
+typedef struct points {
+    float room[4][SPT_BATCH + 16];
+} points;
+
+static float *column(points *set, int which) {
+    const size_t misplaced = (size_t)((uintptr_t)set->room[which] % 64) / sizeof(float);
+    return set->room[which] + (misplaced == 0 ? 0 : 16 - misplaced);
+}
+
+/* Where a scene is looked at: its bound, or a cube around what the camera looks at. */
+static void region_of(const scene *shown, double low[3], double high[3]) {
+    double reach = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        reach = fmax(reach, 0.7 * fabs(shown->eye[axis] - shown->target[axis]));
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = shown->target[axis] - reach;
+        high[axis] = shown->target[axis] + reach;
+    }
+    if (shown->bound != NULL && shown->bound->kind == SPT_BOUND_BOX) {
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = (double)shown->bound->low[axis];
+            high[axis] = (double)shown->bound->high[axis];
+        }
+    } else if (shown->bound != NULL) {
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = (double)(shown->bound->center[axis] - shown->bound->radius);
+            high[axis] = (double)(shown->bound->center[axis] + shown->bound->radius);
+        }
+    }
+}
+
+/* A random point of the region, its coordinates floats. */
+static void draw(const scene *shown, double point[3]) {
+    double low[3], high[3];
+    region_of(shown, low, high);
+    for (int axis = 0; axis < 3; ++axis) {
+        point[axis] = (double)(float)check_uniform(low[axis], high[axis]);
+    }
+}
+
+static double reference_at(const scene *shown, const double point[3]) {
+    double distance;
+    shown->reference(1, &point[0], &point[1], &point[2], &distance);
+    return distance;
+}
+
+static double apart(const double a[3], const double b[3]) {
+    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return sqrt(x * x + y * y + z * z);
+}
+
+/* Points of the region, and at the front those where zeros and signs go wrong. */
+static void fill(const scene *shown, points *set) {
+    static const float special[8][3] = {
+        {0, 0, 0}, {-0.0f, -0.0f, -0.0f}, {1, 0, 0},           {0, -1, 0},
+        {0, 0, 1}, {0, 0.5f, -0.0f},      {1e-20f, 0, 1e-30f}, {1.25f, 0.75f, -0.5f}};
+    for (int i = 0; i < SPT_BATCH; ++i) {
+        double point[3];
+        draw(shown, point);
+        for (int axis = 0; axis < 3; ++axis) {
+            column(set, axis)[i] = i < 8 ? special[i][axis] : (float)point[axis];
+        }
+    }
+}
+
+static void evaluate(const spt_field *field, points *set, size_t first, size_t n) {
+    float *const distance = column(set, 3) + first;
+    for (size_t i = 0; i < n; ++i) distance[i] = NAN;
+    field->batch(field->user, n, column(set, 0) + first, column(set, 1) + first,
+                 column(set, 2) + first, distance);
+}
+
+static int differing(const float *a, const float *b, size_t n) {
+    int count = 0;
+    for (size_t i = 0; i < n; ++i) count += !check_same_bits(a[i], b[i]);
+    return count;
+}
+
+/* The next narrower width, 0 after 1. */
+static int narrower(int lanes) {
+    return lanes > 4 ? lanes / 2 : lanes == 4 ? 1 : 0;
+}
+
+static void scenes_same_bits_at_every_width(void) {
+    static points set;
+    float one_by_one[SPT_BATCH];
+    for (size_t s = 0; s < scene_count; ++s) {
+        const scene *const shown = scenes[s];
+        fill(shown, &set);
+        for (int i = 0; i < SPT_BATCH; ++i) {
+            one_by_one[i] =
+                shown->point(NULL, column(&set, 0)[i], column(&set, 1)[i], column(&set, 2)[i]);
+        }
+        for (int lanes = spt_lanes(); lanes > 0; lanes = narrower(lanes)) {
+            const spt_field field = scene_field(shown, lanes);
+            check_context("%s, %d lanes", shown->name, lanes);
+            evaluate(&field, &set, 0, SPT_BATCH);
+            const int count = differing(one_by_one, column(&set, 3), SPT_BATCH);
+            CHECK_SAY(count == 0, "%d of %d values differ from one point's", count, SPT_BATCH);
+        }
+    }
+}
+
+static void scenes_place_in_the_batch_does_not_matter(void) {
+    static points set, turned;
+    for (size_t s = 0; s < scene_count; ++s) {
+        fill(scenes[s], &set);
+        for (int i = 0; i < SPT_BATCH; ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                column(&turned, axis)[SPT_BATCH - 1 - i] = column(&set, axis)[i];
+            }
+        }
+        for (int lanes = spt_lanes(); lanes > 0; lanes = narrower(lanes)) {
+            const spt_field field = scene_field(scenes[s], lanes);
+            float whole[SPT_BATCH], back[SPT_BATCH];
+            check_context("%s, %d lanes", scenes[s]->name, lanes);
+            evaluate(&field, &set, 0, SPT_BATCH);
+            memcpy(whole, column(&set, 3), sizeof whole);
+            evaluate(&field, &turned, 0, SPT_BATCH);
+            for (int i = 0; i < SPT_BATCH; ++i) back[i] = column(&turned, 3)[SPT_BATCH - 1 - i];
+            CHECK(differing(whole, back, SPT_BATCH) == 0);
+            for (size_t n = 16; n <= 112; n += 48) {
+                for (size_t first = 0; first + n <= SPT_BATCH; first += n) {
+                    evaluate(&field, &set, first, n);
+                    CHECK(differing(whole + first, column(&set, 3) + first, n) == 0);
+                }
+            }
+        }
+    }
+}
+
+/* What float can resolve, the law behind the tolerance's floor: 2.5 roundings of the point and the
+ * scene together (the eye's coordinates stand for its size), one or two for the coordinate that is
+ * moved or turned and one for the root and what follows; times lipschitz, which is how much a moved
+ * point moves the distance. Not for the fractal, see test_scenes_known.c. */
+static void scenes_reference_within_rounding(void) {
+    for (size_t s = 0; s < scene_count; ++s) {
+        const scene *const shown = scenes[s];
+        double size = 0;
+        if (strcmp(shown->name, "mandelbulb") == 0) continue;
+        check_context("%s", shown->name);
+        for (int axis = 0; axis < 3; ++axis) size += fabs(shown->eye[axis]);
+        for (int i = 0; i < 10000; ++i) {
+            double p[3];
+            draw(shown, p);
+            const double seen = (double)shown->point(NULL, (float)p[0], (float)p[1], (float)p[2]);
+            const double error = fabs(seen - reference_at(shown, p));
+            const double sum = fabs(p[0]) + fabs(p[1]) + fabs(p[2]) + size;
+            CHECK_SAY(error <= 2.5 * unit_roundoff * (double)shown->lipschitz * sum,
+                      "error %g at %g %g %g", error, p[0], p[1], p[2]);
+        }
+    }
+}
+
+/* From p against the gradient, so that the slope between the two is the steepest there is at p. */
+static void step_downhill(const scene *shown, const double p[3], double length, double q[3]) {
+    const double flat[3] = {0, 0, 0};
+    double gradient[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        double ahead[3], behind[3];
+        memcpy(ahead, p, sizeof ahead);
+        memcpy(behind, p, sizeof behind);
+        ahead[axis] += 1e-6;
+        behind[axis] -= 1e-6;
+        gradient[axis] = reference_at(shown, ahead) - reference_at(shown, behind);
+    }
+    const double steep = fmax(apart(gradient, flat), 1e-12);
+    for (int axis = 0; axis < 3; ++axis) q[axis] = p[axis] - length * gradient[axis] / steep;
+}
+
+/* Between pairs of points from 1e-4 apart to across the region, every second one down the gradient.
+ * Constants such as unit vectors are rounded to float, which allows 8 roundings of slope. That some
+ * pair comes near the constant shows that the pairs can fail. */
+static void scenes_lipschitz_promise(void) {
+    for (size_t s = 0; s < scene_count; ++s) {
+        const scene *const shown = scenes[s];
+        const double lipschitz = (double)shown->lipschitz;
+        double steepest = 0;
+        if (strcmp(shown->name, "mandelbulb") == 0) continue; /* an estimate */
+        check_context("%s", shown->name);
+        for (int i = 0; i < 20000; ++i) {
+            double p[3], q[3];
+            const double share = pow(10, check_uniform(-4, 0));
+            draw(shown, p);
+            draw(shown, q);
+            for (int axis = 0; axis < 3; ++axis) q[axis] = p[axis] + share * (q[axis] - p[axis]);
+            if (i % 2 == 1) step_downhill(shown, p, 1e-4, q);
+            const double slope =
+                fabs(reference_at(shown, p) - reference_at(shown, q)) / apart(p, q);
+            CHECK_SAY(slope <= lipschitz * (1 + 8 * unit_roundoff), "slope %.9g at %g %g %g", slope,
+                      p[0], p[1], p[2]);
+            steepest = fmax(steepest, slope);
+        }
+        CHECK_SAY(steepest > 0.5 * lipschitz, "steepest %g", steepest);
+    }
+}
+
+static void scenes_convex_where_they_say_so(void) {
+    int convex = 0;
+    for (size_t s = 0; s < scene_count; ++s) {
+        const scene *const shown = scenes[s];
+        if ((shown->flags & SPT_FIELD_CONVEX) == 0) continue;
+        ++convex;
+        check_context("%s", shown->name);
+        for (int i = 0; i < 4000; ++i) {
+            double p[3], q[3], middle[3];
+            draw(shown, p);
+            draw(shown, q);
+            for (int axis = 0; axis < 3; ++axis) middle[axis] = 0.5 * (p[axis] + q[axis]);
+            /* 1e-9: what keeps the generalised distance from denormals bends it by 1e-10 */
+            CHECK(reference_at(shown, middle) <=
+                  0.5 * (reference_at(shown, p) + reference_at(shown, q)) + 1e-9);
+        }
+    }
+    CHECK(convex >= 5);
+}
+
+static int inside_bound(const spt_bound *bound, const double p[3]) {
+    const double center[3] = {(double)bound->center[0], (double)bound->center[1],
+                              (double)bound->center[2]};
+    if (bound->kind == SPT_BOUND_SPHERE) return apart(p, center) <= (double)bound->radius;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(p[axis] >= (double)bound->low[axis] && p[axis] <= (double)bound->high[axis]))
+            return 0;
+    }
+    return 1;
+}
+
+/* Nothing of a surface lies outside its bound: points in and around the region, half of them drawn
+ * close to where it ends. */
+static void scenes_bound_contains_the_surface(void) {
+    for (size_t s = 0; s < scene_count; ++s) {
+        const scene *const shown = scenes[s];
+        double low[3], high[3];
+        int outside = 0;
+        if (shown->bound == NULL) continue;
+        check_context("%s", shown->name);
+        region_of(shown, low, high);
+        for (int i = 0; i < 8000; ++i) {
+            const double growth = i % 2 == 0 ? 1.02 : 1.8;
+            double p[3];
+            draw(shown, p);
+            for (int axis = 0; axis < 3; ++axis) {
+                const double middle = 0.5 * (low[axis] + high[axis]);
+                p[axis] = middle + growth * (p[axis] - middle);
+            }
+            if (inside_bound(shown->bound, p)) continue;
+            ++outside;
+            CHECK_SAY(reference_at(shown, p) > 0, "inside at %g %g %g", p[0], p[1], p[2]);
+        }
+        CHECK(outside > 1000);
+    }
+}
+
+static void scenes_deformed_constants(void) {
+    CHECK(fabsf(scene_named("twisted")->lipschitz -
+                spt_twist_lipschitz((float)TWISTED_RATE, (float)TWISTED_REACH)) < 1e-4f);
+    CHECK(fabsf(scene_named("bent")->lipschitz -
+                spt_bend_lipschitz((float)BENT_RATE, (float)BENT_REACH)) < 1e-4f);
+    const spt_bound *const bound = scene_named("bent")->bound;
+    CHECK(sqrtf(bound->high[0] * bound->high[0] + bound->low[1] * bound->low[1]) <=
+          (float)BENT_REACH);
+}
+
+static void scenes_village_is_the_union_of_its_objects(void) {
+    static points set;
+    const scene *const shown = scene_named("village");
+    float least[SPT_BATCH];
+    for (int lanes = spt_lanes(); lanes > 0; lanes = narrower(lanes)) {
+        check_context("%d lanes", lanes);
+        fill(shown, &set);
+        for (int i = 0; i < SPT_BATCH; ++i) least[i] = INFINITY;
+        for (int object = 0; object < VILLAGE_OBJECTS; ++object) {
+            spt_bound bound;
+            const spt_field field = village_object(object, lanes, &bound);
+            evaluate(&field, &set, 0, SPT_BATCH);
+            for (int i = 0; i < SPT_BATCH; ++i) {
+                const float distance = column(&set, 3)[i];
+                const double p[3] = {(double)column(&set, 0)[i], (double)column(&set, 1)[i],
+                                     (double)column(&set, 2)[i]};
+                if (distance < least[i]) least[i] = distance;
+                CHECK(distance > 0 || inside_bound(field.bound, p));
+            }
+        }
+        const spt_field whole = scene_field(shown, lanes);
+        evaluate(&whole, &set, 0, SPT_BATCH);
+        CHECK(differing(least, column(&set, 3), SPT_BATCH) == 0);
+    }
+}
+
+/* A point on a sphere, all directions alike. */
+static void draw_on_sphere(const spt_bound *sphere, double point[3]) {
+    const double height = check_uniform(-1, 1), turn = check_uniform(0, 6.283185307179586);
+    const double across = sqrt(1 - height * height), radius = (double)sphere->radius;
+    point[0] = (double)sphere->center[0] + radius * across * cos(turn);
+    point[1] = (double)sphere->center[1] + radius * height;
+    point[2] = (double)sphere->center[2] + radius * across * sin(turn);
+}
+
+/* The sphere of a house lies outside it all over, and would not if it were 4 % smaller. */
+static void scenes_village_bounds(void) {
+    static points set;
+    for (int object = 0; object < VILLAGE_OBJECTS; ++object) {
+        spt_bound bound;
+        const spt_field field = village_object(object, 1, &bound);
+        const float radius = bound.radius;
+        int met[2] = {0, 0};
+        CHECK(bound.kind == (object + 1 < VILLAGE_OBJECTS ? SPT_BOUND_SPHERE : SPT_BOUND_BOX));
+        if (bound.kind != SPT_BOUND_SPHERE) continue;
+        for (int smaller = 0; smaller < 2; ++smaller) {
+            bound.radius = smaller ? 0.96f * radius : radius;
+            for (int batch = 0; batch < 40; ++batch) {
+                for (int i = 0; i < SPT_BATCH; ++i) {
+                    double p[3];
+                    draw_on_sphere(&bound, p);
+                    for (int axis = 0; axis < 3; ++axis) column(&set, axis)[i] = (float)p[axis];
+                }
+                evaluate(&field, &set, 0, SPT_BATCH);
+                for (int i = 0; i < SPT_BATCH; ++i) met[smaller] += column(&set, 3)[i] <= 0;
+            }
+        }
+        CHECK_SAY(met[0] == 0 && met[1] > 0, "house %d: %d points inside, %d when smaller", object,
+                  met[0], met[1]);
+    }
+}
+
+void suite_scenes(void) {
+    RUN(scenes_same_bits_at_every_width);
+    RUN(scenes_place_in_the_batch_does_not_matter);
+    RUN(scenes_reference_within_rounding);
+    RUN(scenes_lipschitz_promise);
+    RUN(scenes_convex_where_they_say_so);
+    RUN(scenes_bound_contains_the_surface);
+    RUN(scenes_deformed_constants);
+    RUN(scenes_village_is_the_union_of_its_objects);
+    RUN(scenes_village_bounds);
+}
