@@ -274,7 +274,8 @@ SPTI_INLINE int march_pass(spti_chunk *chunk, const spti_march *march, size_t co
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         spti_fates fates = {0, 0, 0, 0, 0, 0};
         const size_t start = group * SPTI_GROUP, left = count - start;
-        for (unsigned shift = 0; shift < SPTI_GROUP && shift < left; shift += SPT_LANES) {
+        /* The whole group: its padding goes where the ray goes that it repeats. */
+        for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
             march_vector(chunk, &all, start + shift, shift, wants, &fates);
         }
         /* Lanes behind the last ray hold nothing. */

@@ -98,7 +98,8 @@ SPTI_INLINE int prepare_pass(spti_chunk *chunk, const spti_march *march, size_t 
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         spti_fates fates = {0, 0, 0, 0, 0, 0};
         const size_t start = group * SPTI_GROUP, left = count - start;
-        for (unsigned shift = 0; shift < SPTI_GROUP && shift < left; shift += SPT_LANES) {
+        /* The whole group: its padding goes where the ray goes that it repeats. */
+        for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
             prepare_vector(chunk, march, start + shift, shift, &fates);
         }
         if (left < SPTI_GROUP) fates.finished &= (uint16_t)((1u << left) - 1u);
