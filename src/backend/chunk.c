@@ -7,11 +7,15 @@
 
 spti_prepare_fn SPTI_PREPARE;
 int SPTI_PREPARE(spti_chunk *chunk, const spti_march *march, size_t count) {
-    return prepare_pass(chunk, march, count);
+    const int any = prepare_pass(chunk, march, count);
+    spti_clear_upper();
+    return any;
 }
 
 spti_compact_fn SPTI_COMPACT;
 size_t SPTI_COMPACT(spti_chunk *chunk, const unsigned char *arrays, size_t array_count,
                     size_t count) {
-    return compact_pass(chunk, arrays, array_count, count);
+    const size_t remain = compact_pass(chunk, arrays, array_count, count);
+    spti_clear_upper();
+    return remain;
 }

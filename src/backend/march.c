@@ -10,7 +10,9 @@
 /* One function for every combination of wanted results; what is not wanted leaves no instruction. */
 #define INSTANCE(wants) \
     static int pass_##wants(spti_chunk *chunk, const spti_march *march, size_t count, int first) { \
-        return march_pass(chunk, march, count, first, wants); \
+        const int any = march_pass(chunk, march, count, first, wants); \
+        spti_clear_upper(); \
+        return any; \
     }
 INSTANCE(0)
 INSTANCE(1)

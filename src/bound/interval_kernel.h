@@ -25,19 +25,26 @@ SPTI_INLINE spt_wide interval_slack(const interval_ray *ray, spt_wide size, spt_
     return spt_mul(spt_splat(SPTI_FLOOR), spt_add(at_0, spt_abs(t)));
 }
 
+/* A magnitude with the sign of another number. */
+SPTI_INLINE spt_wide interval_signed(spt_wide magnitude, spt_wide sign) {
+    const spt_wide zero = spt_splat(0.0f);
+    return spt_select(spt_less(sign, zero), spt_sub(zero, magnitude), magnitude);
+}
+
 /* Slabs, by division: the usual multiplication by 1 / direction makes 0 * infinity of a ray that
  * lies in a face, and loses half or all of such rays. */
 SPTI_INLINE void interval_of_box(const spt_bound *bound, const interval_ray *ray, spt_wide *entry,
                                  spt_wide *exit) {
-    const spt_wide zero = spt_splat(0.0f), infinity = spt_splat(INFINITY);
+    const spt_wide infinity = spt_splat(INFINITY);
     const spt_wide minus_infinity = spt_splat(-INFINITY);
     *entry = minus_infinity;
     *exit = infinity;
     for (int axis = 0; axis < 3; ++axis) {
         const spt_wide low = spt_splat(bound->low[axis]), high = spt_splat(bound->high[axis]);
         const spt_wide origin = ray->origin[axis], direction = ray->direction[axis];
-        const spt_mask parallel = spt_less_equal(spt_abs(direction), zero);
-        const spt_wide divisor = spt_select(parallel, spt_splat(1.0f), direction);
+        const spt_wide magnitude = spt_max(spt_abs(direction), spt_splat(FLT_MIN));
+        const spt_mask parallel = spt_less(spt_abs(direction), spt_splat(FLT_MIN));
+        const spt_wide divisor = interval_signed(magnitude, direction);
         const spt_wide a = spt_div(spt_sub(low, origin), divisor);
         const spt_wide b = spt_div(spt_sub(high, origin), divisor);
         const spt_mask within =
@@ -53,7 +60,7 @@ SPTI_INLINE void interval_of_box(const spt_bound *bound, const interval_ray *ray
  * as B^2 - AC does; and the second root from the product of both. */
 SPTI_INLINE void interval_of_sphere(const spt_bound *bound, const interval_ray *ray,
                                     spt_wide *entry, spt_wide *exit) {
-    const spt_wide zero = spt_splat(0.0f), one = spt_splat(1.0f), radius = spt_splat(bound->radius);
+    const spt_wide zero = spt_splat(0.0f), radius = spt_splat(bound->radius);
     spt_wide offset[3], a = zero, b = zero, c = zero, apart = zero;
     for (int axis = 0; axis < 3; ++axis) {
         offset[axis] = spt_sub(ray->origin[axis], spt_splat(bound->center[axis]));
@@ -74,12 +81,10 @@ SPTI_INLINE void interval_of_sphere(const spt_bound *bound, const interval_ray *
     const spt_mask touched = spt_less_equal(zero, room);
     const spt_wide root = spt_sqrt(spt_mul(a, spt_select(touched, room, zero)));
     const spt_wide magnitude = spt_add(spt_abs(b), root);
-    const spt_wide k = spt_select(spt_less(b, zero), magnitude, spt_sub(zero, magnitude));
-    const spt_mask double_zero = spt_less_equal(magnitude, zero);
+    const spt_wide k = interval_signed(spt_max(magnitude, spt_splat(FLT_MIN)), spt_sub(zero, b));
     const spt_wide first = spt_div(k, a);
     const spt_wide product = spt_sub(c, square);
-    const spt_wide second =
-        spt_select(double_zero, zero, spt_div(product, spt_select(double_zero, one, k)));
+    const spt_wide second = spt_select(spt_less_equal(magnitude, zero), zero, spt_div(product, k));
     *entry = spt_select(touched, spt_min(first, second), spt_splat(INFINITY));
     *exit = spt_select(touched, spt_max(first, second), spt_splat(-INFINITY));
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * The contract of the lanes: what kernels may do with SPT_LANES floats at once. The arithmetic is
- * the public simd.h; here are the two operations that only the library needs. Each file of this
+ * the public simd.h; here are the operations that only the library needs. Each file of this
  * folder gives them for one instruction set, and no other file of src names an intrinsic. */
 #ifndef SPTI_LANES_H
 #define SPTI_LANES_H
@@ -16,6 +16,10 @@ SPTI_INLINE spt_wide spti_power_of_two(spt_wide a);
 /* Writes the lanes whose bit is set in keep (bit i for lane i), in order, from `to` on. Writes a
  * whole vector; what stands behind the kept lanes is undefined. */
 SPTI_INLINE void spti_compress(float *to, spt_wide a, unsigned keep);
+
+/* Called last in a kernel: leaves the upper halves of the registers clean, as callers compiled for
+ * narrower vectors want them. Compilers do that by themselves only when they optimise. */
+SPTI_INLINE void spti_clear_upper(void);
 
 #if SPT_LANES == 16
 #include "lanes_avx512.h"

@@ -52,3 +52,7 @@ SPTI_INLINE void spti_compress(float *to, spt_wide a, unsigned keep) {
     const __m256i lanes = _mm256_srlv_epi32(_mm256_set1_epi32((int)kept_lanes[keep]), shifts);
     _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(a, lanes));
 }
+
+SPTI_INLINE void spti_clear_upper(void) {
+    _mm256_zeroupper();
+}

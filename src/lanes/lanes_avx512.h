@@ -11,3 +11,7 @@ SPTI_INLINE void spti_compress(float *to, spt_wide a, unsigned keep) {
     /* In a register and stored whole: compressing to memory costs 25 times as much on Zen 4. */
     _mm512_storeu_ps(to, _mm512_maskz_compress_ps((__mmask16)keep, a));
 }
+
+SPTI_INLINE void spti_clear_upper(void) {
+    _mm256_zeroupper();
+}

@@ -14,3 +14,6 @@ SPTI_INLINE void spti_compress(float *to, spt_wide a, unsigned keep) {
     (void)keep; /* a lane that is not kept is overwritten by the next one */
     *to = a;
 }
+
+SPTI_INLINE void spti_clear_upper(void) {
+}

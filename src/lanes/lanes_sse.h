@@ -31,3 +31,6 @@ SPTI_INLINE void spti_compress(float *to, spt_wide a, unsigned keep) {
     }
 }
 #endif
+
+SPTI_INLINE void spti_clear_upper(void) {
+}

@@ -4,6 +4,8 @@
  * samples, so the secant's root is certified, and a rising f never comes down again. Half the
  * rounding floor covers the rounding of f: without it one of 504 grazing rays was lost.
  * For a start inside, -f is concave and the argument fails: plain steps. */
+#include <float.h>
+
 #include "methods.h"
 
 enum { rule_probes = 0, rule_pending = 0, rule_memory = 2, rule_blends = 0, rule_needs_convex = 1 };
@@ -21,7 +23,7 @@ SPTI_INLINE spt_wide rule_step(const spti_parameters *parameters, const spti_sta
     const spt_wide drop = spt_add(spt_sub(memory[1], at->radius), spt_add(margin, margin));
     const spt_mask secant = spt_mask_and(at->outside, spt_less(zero, memory[0]));
     const spt_mask falling = spt_mask_and(secant, spt_less(zero, drop));
-    const spt_wide divisor = spt_select(falling, drop, spt_splat(1.0f));
+    const spt_wide divisor = spt_max(drop, spt_splat(FLT_MIN));
     const spt_wide step = spt_div(spt_mul(spt_sub(at->radius, margin), memory[0]), divisor);
     (void)parameters;
     *missed = spt_mask_and_not(secant, falling);

@@ -12,8 +12,9 @@
 static void load_column(spti_chunk *chunk, int array, const spt_column *column, float absent,
                         size_t count, size_t first, size_t window) {
     float *const to = chunk->array[array];
-    const char *const base = (const char *)column->first + (ptrdiff_t)first * column->stride;
-    if (column->first == NULL) {
+    const char *base = column->first;
+    if (base != NULL) base += (ptrdiff_t)first * column->stride;
+    if (base == NULL) {
         for (size_t slot = 0; slot < count; ++slot) to[slot] = absent;
     } else if (count == window) {
         const char *from = base;
@@ -138,17 +139,6 @@ void spti_write_hit(const spti_call *call, const spti_chunk *chunk, size_t slot,
     }
 }
 
-/* Moves a bracketed ray to the end of the chunk, where finished rays have made room. */
-static void set_bracket_aside(spti_chunk *chunk, size_t slot, size_t to, uint32_t evaluations) {
-    for (int array = 0; array < SPTI_ARRAYS; ++array) {
-        if (array != SPTI_PENDING_T && array != SPTI_PENDING_VALUE) {
-            chunk->array[array][to] = chunk->array[array][slot];
-        }
-    }
-    chunk->array[SPTI_PENDING_T][to] = chunk->distance[slot]; /* f at the probe that crossed */
-    memcpy(&chunk->array[SPTI_PENDING_VALUE][to], &evaluations, sizeof evaluations);
-}
-
 /* The outcome that the fates of a group give a ray; a finished one in no mask stalled. */
 static spt_outcome outcome_of(const spti_fates *fates, unsigned bit) {
     if (fates->hit >> bit & 1) return SPT_HIT;
@@ -158,25 +148,54 @@ static spt_outcome outcome_of(const spti_fates *fates, unsigned bit) {
     return SPT_LIMIT;
 }
 
+/* Closes the gaps of a pass that bracketed rays, and moves those to the end of each array once its
+ * other rays have made room. Returns how many rays go on; *brackets counts those set aside. */
+static SPTI_NOINLINE size_t set_brackets_aside(const spti_call *call, spti_chunk *chunk,
+                                               size_t count, uint32_t age, const uint16_t *extra,
+                                               size_t *brackets) {
+    spti_compact_fn *const compact = spti_chunk_kernels_of[call->isa].compact;
+    unsigned char slots[SPT_BATCH];
+    float kept[SPT_BATCH];
+    size_t aside = 0, remain = 0;
+    for (size_t slot = 0; slot < count; ++slot) {
+        const unsigned bracketed = chunk->fates[slot / SPTI_GROUP].bracketed;
+        if (bracketed >> slot % SPTI_GROUP & 1) slots[aside++] = (unsigned char)slot;
+    }
+    for (size_t i = 0; i < call->array_count; ++i) {
+        float *const array = chunk->array[call->arrays[i]];
+        for (size_t k = 0; k < aside; ++k) kept[k] = array[slots[k]];
+        remain = compact(chunk, &call->arrays[i], 1, count);
+        for (size_t k = 0; k < aside; ++k) array[SPTI_ROOM - 1 - *brackets - k] = kept[k];
+    }
+    for (size_t k = 0; k < aside; ++k) {
+        const size_t to = SPTI_ROOM - 1 - *brackets - k;
+        chunk->array[SPTI_PENDING_T][to] = chunk->distance[slots[k]]; /* f beyond the crossing */
+        const size_t index = (size_t)chunk->array[SPTI_INDEX][to];
+        const uint32_t evaluations = age + (extra != NULL ? extra[index] : 0u);
+        memcpy(&chunk->array[SPTI_PENDING_VALUE][to], &evaluations, sizeof evaluations);
+    }
+    *brackets += aside;
+    return remain;
+}
+
 /* Writes out the finished rays and closes the gaps; returns how many rays go on. Brackets are set
  * aside and counted. */
 static size_t empty_finished(const spti_call *call, spti_chunk *chunk, size_t count, size_t first,
                              uint32_t age, const uint16_t *extra, size_t *brackets) {
+    unsigned bracketed = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         const spti_fates *fates = &chunk->fates[group];
-        for (unsigned left = fates->finished; left != 0; left &= left - 1) {
+        const unsigned ended = fates->finished & ~(unsigned)fates->bracketed;
+        bracketed |= fates->finished & fates->bracketed;
+        for (unsigned left = ended; left != 0; left &= left - 1) {
             const unsigned bit = spti_lowest_bit(left);
             const size_t slot = group * SPTI_GROUP + bit;
             const uint32_t more = extra != NULL ? extra[(size_t)chunk->array[SPTI_INDEX][slot]] : 0;
-            if (fates->bracketed >> bit & 1) {
-                *brackets += 1;
-                set_bracket_aside(chunk, slot, SPTI_ROOM - *brackets, age + more);
-                continue;
-            }
             const spti_leave leave = {outcome_of(fates, bit), age + more, 0};
             spti_write_hit(call, chunk, slot, first, leave);
         }
     }
+    if (bracketed) return set_brackets_aside(call, chunk, count, age, extra, brackets);
     return spti_chunk_kernels_of[call->isa].compact(chunk, call->arrays, call->array_count, count);
 }
 

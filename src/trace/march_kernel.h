@@ -72,7 +72,7 @@ SPTI_INLINE spt_mask march_overlap(const march_constants *all, spt_wide a, spt_w
 SPTI_INLINE void march_candidate(const march_rays *rays, const march_state *ray, spt_mask certified,
                                  march_audit *audit) {
     const spt_wide eye = spt_max(spt_add(rays->path, ray->t), rays->epsilon);
-    const spt_wide ratio = spt_div(spt_max(ray->radius, spt_splat(0.0f)), eye);
+    const spt_wide ratio = spt_div(spt_abs(ray->radius), eye);
     const spt_mask nearer = spt_mask_and(certified, spt_less(ratio, audit->candidate_ratio));
     audit->candidate_ratio = spt_select(nearer, ratio, audit->candidate_ratio);
     audit->candidate_t = spt_select(nearer, ray->t, audit->candidate_t);

@@ -60,10 +60,10 @@ SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, size
         spt_div(spt_add(spt_mul(spt_splat(SPTI_FLOOR), reach), spt_splat(SPTI_FLOOR * march->size)),
                 length);
 
-    /* So far that positions stay finite, and lengths well within the range. */
+    /* So far that t and positions stay finite, and lengths well within the range. */
     spt_wide limit = spt_min(spt_splat(FLT_MAX / 4), spt_sub(most, reach));
     limit = spt_div(spt_mul(limit, spt_splat(1.0f - 0x1p-20f)), length);
-    t_max = spt_min(t_max, limit);
+    t_max = spt_min(t_max, spt_min(limit, spt_mul(most, spt_min(power, spt_splat(1.0f)))));
     if (march->bound != NULL) {
         ray.length = length;
         ray.reach = reach;

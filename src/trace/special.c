@@ -75,10 +75,12 @@ uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count,
         }
         walkers = still;
     }
-    const size_t whole = (count + SPTI_GROUP - 1) / SPTI_GROUP * SPTI_GROUP;
-    for (size_t slot = 0; slot < whole; ++slot) {
-        chunk->distance[slot] = chunk->array[SPTI_VALUE][slot < count ? slot : 0];
+    for (size_t slot = count; slot % SPTI_GROUP != 0; ++slot) {
+        for (size_t i = 0; i < call->array_count; ++i) {
+            chunk->array[call->arrays[i]][slot] = chunk->array[call->arrays[i]][0];
+        }
     }
+    memcpy(chunk->distance, chunk->array[SPTI_VALUE], sizeof chunk->distance);
     return steps;
 }
 
