@@ -153,15 +153,16 @@ SPTI_INLINE unsigned march_vector(spti_chunk *chunk, const march_constants *all,
     /* Judge the sample. A probe beyond the certified sphere counts only if its own sphere reaches
      * back; what else it shows, even NaN, is no event. */
     spt_wide step = spt_sub(probe, ray.t);
+    const spt_mask legal = spt_less_equal(spt_splat(-FLT_MAX), sampled);
     spt_mask rejected = nowhere;
     if (rule_probes) {
         const spt_mask over = spt_less(spt_add(ray.t, ray.radius), probe);
         const spt_mask reaches = march_overlap(all, ray.radius, sampled_radius, step, floor);
-        const spt_mask verified = spt_mask_and(spt_less_equal(zero, sampled_radius), reaches);
-        rejected = spt_mask_and_not(over, verified);
+        const spt_mask outside = spt_mask_and(legal, spt_less_equal(zero, sampled_radius));
+        rejected = spt_mask_and_not(over, spt_mask_and(outside, reaches));
     }
     const spt_mask certified = spt_mask_and_not(everywhere, rejected);
-    const spt_mask number = spt_mask_and(certified, spt_less_equal(spt_splat(-FLT_MAX), sampled));
+    const spt_mask number = spt_mask_and(certified, legal);
     const spt_mask nonfinite = spt_mask_and_not(certified, number);
     const spt_mask below = spt_less(spt_sub(zero, tolerance), sampled_radius);
     const spt_mask bracketed = spt_mask_and_not(number, below);
@@ -194,7 +195,8 @@ SPTI_INLINE unsigned march_vector(spti_chunk *chunk, const march_constants *all,
     if (rule_pending) {
         /* Keep a rejected probe that was outside; and go to the kept one, at no evaluation, as soon
          * as the certified sphere meets its own (the "trivial extension" of Keinert 3.1). */
-        const spt_mask kept = spt_mask_and(rejected, spt_less(zero, sampled_radius));
+        const spt_mask outside = spt_mask_and(legal, spt_less(zero, sampled_radius));
+        const spt_mask kept = spt_mask_and(rejected, outside);
         ray.pending_t = spt_select(rejected, spt_select(kept, probe, zero), ray.pending_t);
         ray.pending_value = spt_select(rejected, sampled, ray.pending_value);
         const spt_wide radius = spt_mul(ray.pending_value, rays.scale);
@@ -205,6 +207,7 @@ SPTI_INLINE unsigned march_vector(spti_chunk *chunk, const march_constants *all,
         const spt_mask leaps =
             spt_mask_and_not(spt_mask_and(ahead, meets), spt_mask_or(hit, nonfinite));
         spti_pair leapt = {spt_max(leap, spt_splat(FLT_MIN)), ray.radius, radius};
+        if (wants & SPTI_WANT_SLOPE) march_slope(&leapt, there, leaps, &audit);
         if (!rule_blends) {
             leapt.step = spt_select(leaps, leapt.step, pair.step);
             leapt.before = spt_select(leaps, leapt.before, pair.before);
