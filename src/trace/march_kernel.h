@@ -33,9 +33,9 @@ typedef struct march_state {
     spt_wide pending_t, pending_value;
 } march_state;
 
-/* The certified samples' results. */
+/* What was seen on the way, as far as it is wanted. */
 typedef struct march_audit {
-    spt_wide steepest, fallbacks, candidate_t, candidate_ratio;
+    spt_wide steepest, candidate_t, candidate_ratio;
 } march_audit;
 
 /* The constants of the rays of a vector. */
@@ -49,6 +49,10 @@ SPTI_INLINE spt_wide march_load(const spti_chunk *chunk, int array, size_t at) {
 
 SPTI_INLINE void march_store(spti_chunk *chunk, int array, size_t at, spt_wide a) {
     spt_store(&chunk->array[array][at], a);
+}
+
+SPTI_INLINE void march_add_fate(uint16_t *fate, spt_mask lanes, unsigned shift) {
+    *fate = (uint16_t)(*fate | spt_mask_bits(lanes) << shift);
 }
 
 SPTI_INLINE spt_wide march_floor(const march_constants *all, const march_rays *rays, spt_wide t) {
@@ -126,142 +130,177 @@ SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays 
     return spt_min(spt_add(ray->t, step), rays->t_max);
 }
 
-/* One vector. wants is a constant. Returns the bits of the finished lanes and adds the fates at
- * `shift`, the vector's place in its group. */
-SPTI_INLINE unsigned march_vector(spti_chunk *chunk, const march_constants *all, size_t at,
-                                  unsigned shift, unsigned wants, spti_fates *fates) {
+/* What came back from the callback and what it means, lane by lane. */
+typedef struct march_sample {
+    spt_wide t, value, radius, floor, tolerance;
+    spti_pair pair; /* with the certified sample before */
+    spt_mask legal; /* neither NaN nor -infinity */
+    spt_mask rejected, moved, hit, nonfinite, bracketed;
+} march_sample;
+
+/* A probe beyond the certified sphere counts only if its own sphere reaches back; what else it
+ * shows, even NaN, is no event. (-infinity from inside looks like a large radius, hence legal.) */
+SPTI_INLINE void march_judge(const march_constants *all, const march_rays *rays,
+                             const march_state *ray, march_sample *sample) {
+    const spt_wide zero = spt_splat(0.0f), step = spt_sub(sample->t, ray->t);
+    sample->radius = spt_mul(sample->value, rays->scale);
+    sample->floor = march_floor(all, rays, sample->t);
+    sample->tolerance = march_tolerance(all, rays, sample->t, sample->floor);
+    sample->legal = spt_less_equal(spt_splat(-FLT_MAX), sample->value);
+    sample->rejected = spt_mask_splat(0);
+    if (rule_probes) {
+        const spt_mask over = spt_less(spt_add(ray->t, ray->radius), sample->t);
+        const spt_mask outside = spt_mask_and(sample->legal, spt_less_equal(zero, sample->radius));
+        const spt_mask reaches =
+            march_overlap(all, ray->radius, sample->radius, step, sample->floor);
+        sample->rejected = spt_mask_and_not(over, spt_mask_and(outside, reaches));
+    }
+    const spt_mask certified = spt_mask_and_not(spt_mask_splat(1), sample->rejected);
+    const spt_mask number = spt_mask_and(certified, sample->legal);
+    const spt_mask above = spt_less(spt_sub(zero, sample->tolerance), sample->radius);
+    const spt_mask close = spt_less(sample->radius, sample->tolerance);
+    sample->nonfinite = spt_mask_and_not(certified, number);
+    sample->bracketed = spt_mask_and_not(number, above);
+    sample->moved = spt_mask_and_not(certified, sample->bracketed);
+    sample->hit = spt_mask_and(spt_mask_and(number, above), close);
+    sample->pair.step = spt_max(step, spt_splat(FLT_MIN));
+    sample->pair.before = ray->radius;
+    sample->pair.after = sample->radius;
+}
+
+/* Goes where the sample is certified. The memory of a rule that may leap is brought up to date
+ * behind the leap, with one division less, unless it must see both samples. */
+SPTI_INLINE void march_move(const march_constants *all, const march_sample *sample,
+                            march_state *ray) {
+    if (rule_blends || !rule_pending) march_accept(all, &sample->pair, sample->moved, ray);
+    if (rule_probes) {
+        spt_wide turned_down[2] = {ray->memory[0], ray->memory[1]};
+        rule_rejected(turned_down);
+        for (int i = 0; i < rule_memory; ++i) {
+            ray->memory[i] = spt_select(sample->rejected, turned_down[i], ray->memory[i]);
+        }
+    }
+    ray->t = spt_select(sample->moved, sample->t, ray->t);
+    ray->value = spt_select(sample->moved, sample->value, ray->value);
+    ray->radius = spt_select(sample->moved, sample->radius, ray->radius);
+}
+
+/* Keeps a rejected probe that was outside, and goes to the kept one, at no evaluation, as soon as
+ * the certified sphere meets its own (the "trivial extension" of Keinert et al. 2014, 3.1). */
+SPTI_INLINE void march_leap(const march_constants *all, const march_rays *rays, unsigned wants,
+                            march_sample *sample, march_state *ray, march_audit *audit) {
     const spt_wide zero = spt_splat(0.0f);
-    const spt_mask everywhere = spt_mask_splat(1), nowhere = spt_mask_splat(0);
+    const spt_mask outside = spt_mask_and(sample->legal, spt_less(zero, sample->radius));
+    const spt_wide kept = spt_select(outside, sample->t, zero);
+    ray->pending_t = spt_select(sample->rejected, kept, ray->pending_t);
+    ray->pending_value = spt_select(sample->rejected, sample->value, ray->pending_value);
+    const spt_wide radius = spt_mul(ray->pending_value, rays->scale);
+    const spt_wide floor = march_floor(all, rays, ray->pending_t);
+    const spt_wide leap = spt_sub(ray->pending_t, ray->t);
+    const spt_mask ahead = spt_less(ray->t, ray->pending_t);
+    const spt_mask meets = march_overlap(all, ray->radius, radius, leap, floor);
+    const spt_mask leaps =
+        spt_mask_and_not(spt_mask_and(ahead, meets), spt_mask_or(sample->hit, sample->nonfinite));
+    spti_pair pair = {spt_max(leap, spt_splat(FLT_MIN)), ray->radius, radius};
+    if (wants & SPTI_WANT_SLOPE) march_slope(&pair, floor, leaps, audit);
+    if (!rule_blends) {
+        pair.step = spt_select(leaps, pair.step, sample->pair.step);
+        pair.before = spt_select(leaps, pair.before, sample->pair.before);
+        pair.after = spt_select(leaps, pair.after, sample->pair.after);
+    }
+    march_accept(all, &pair, rule_blends ? leaps : spt_mask_or(sample->moved, leaps), ray);
+    ray->t = spt_select(leaps, ray->pending_t, ray->t);
+    ray->value = spt_select(leaps, ray->pending_value, ray->value);
+    ray->radius = spt_select(leaps, radius, ray->radius);
+    const spt_mask close = spt_less(ray->radius, march_tolerance(all, rays, ray->t, floor));
+    sample->hit = spt_mask_or(sample->hit, spt_mask_and(leaps, close));
+    if (wants & SPTI_WANT_CANDIDATE) march_candidate(rays, ray, leaps, audit);
+}
+
+SPTI_INLINE void march_load_state(const spti_chunk *chunk, size_t at, spt_wide scale,
+                                  march_state *ray) {
+    const spt_wide zero = spt_splat(0.0f);
+    ray->t = march_load(chunk, SPTI_T, at);
+    ray->value = march_load(chunk, SPTI_VALUE, at);
+    ray->radius = spt_mul(ray->value, scale);
+    ray->memory[0] = rule_memory > 0 ? march_load(chunk, SPTI_MEMORY, at) : zero;
+    ray->memory[1] = rule_memory > 1 ? march_load(chunk, SPTI_MEMORY + 1, at) : zero;
+    ray->pending_t = rule_pending ? march_load(chunk, SPTI_PENDING_T, at) : zero;
+    ray->pending_value = rule_pending ? march_load(chunk, SPTI_PENDING_VALUE, at) : zero;
+}
+
+SPTI_INLINE void march_store_state(spti_chunk *chunk, size_t at, const march_state *ray) {
+    march_store(chunk, SPTI_T, at, ray->t);
+    march_store(chunk, SPTI_VALUE, at, ray->value);
+    for (int i = 0; i < rule_memory; ++i) march_store(chunk, SPTI_MEMORY + i, at, ray->memory[i]);
+    if (rule_pending) {
+        march_store(chunk, SPTI_PENDING_T, at, ray->pending_t);
+        march_store(chunk, SPTI_PENDING_VALUE, at, ray->pending_value);
+    }
+}
+
+/* The points at t, to be evaluated next. */
+SPTI_INLINE void march_store_points(spti_chunk *chunk, size_t at, spt_wide t) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const spt_wide along = spt_mul(t, march_load(chunk, SPTI_DIRECTION + axis, at));
+        const spt_wide origin = march_load(chunk, SPTI_ORIGIN + axis, at);
+        march_store(chunk, SPTI_X + axis, at, spt_add(origin, along));
+    }
+}
+
+/* One vector. wants is a constant. Adds the fates at `shift`, the vector's place in its group. */
+SPTI_INLINE void march_vector(spti_chunk *chunk, const march_constants *all, size_t at,
+                              unsigned shift, unsigned wants, spti_fates *fates) {
     const march_rays rays = {march_load(chunk, SPTI_SCALE, at), march_load(chunk, SPTI_T_MAX, at),
                              march_load(chunk, SPTI_EPSILON, at), march_load(chunk, SPTI_PATH, at),
                              march_load(chunk, SPTI_FLOOR_AT_0, at)};
-    const spt_wide probe = march_load(chunk, SPTI_PROBE, at);
-    const spt_wide sampled = spt_load(&chunk->distance[at]);
-    const spt_wide sampled_radius = spt_mul(sampled, rays.scale);
-    const spt_wide floor = march_floor(all, &rays, probe);
-    const spt_wide tolerance = march_tolerance(all, &rays, probe, floor);
-    march_audit audit = {zero, zero, zero, zero};
+    march_audit audit;
     march_state ray;
-    ray.t = march_load(chunk, SPTI_T, at);
-    ray.value = march_load(chunk, SPTI_VALUE, at);
-    ray.radius = spt_mul(ray.value, rays.scale);
-    ray.memory[0] = rule_memory > 0 ? march_load(chunk, SPTI_MEMORY, at) : zero;
-    ray.memory[1] = rule_memory > 1 ? march_load(chunk, SPTI_MEMORY + 1, at) : zero;
-    ray.pending_t = rule_pending ? march_load(chunk, SPTI_PENDING_T, at) : zero;
-    ray.pending_value = rule_pending ? march_load(chunk, SPTI_PENDING_VALUE, at) : zero;
-
-    /* Judge the sample. A probe beyond the certified sphere counts only if its own sphere reaches
-     * back; what else it shows, even NaN, is no event. */
-    spt_wide step = spt_sub(probe, ray.t);
-    const spt_mask legal = spt_less_equal(spt_splat(-FLT_MAX), sampled);
-    spt_mask rejected = nowhere;
-    if (rule_probes) {
-        const spt_mask over = spt_less(spt_add(ray.t, ray.radius), probe);
-        const spt_mask reaches = march_overlap(all, ray.radius, sampled_radius, step, floor);
-        const spt_mask outside = spt_mask_and(legal, spt_less_equal(zero, sampled_radius));
-        rejected = spt_mask_and_not(over, spt_mask_and(outside, reaches));
-    }
-    const spt_mask certified = spt_mask_and_not(everywhere, rejected);
-    const spt_mask number = spt_mask_and(certified, legal);
-    const spt_mask nonfinite = spt_mask_and_not(certified, number);
-    const spt_mask below = spt_less(spt_sub(zero, tolerance), sampled_radius);
-    const spt_mask bracketed = spt_mask_and_not(number, below);
-    const spt_mask moved = spt_mask_and_not(certified, bracketed);
-    spt_mask hit = spt_mask_and(spt_mask_and(number, below), spt_less(sampled_radius, tolerance));
-
-    step = spt_max(step, spt_splat(FLT_MIN));
-    const spti_pair pair = {step, ray.radius, sampled_radius};
+    march_sample sample;
+    sample.t = march_load(chunk, SPTI_PROBE, at);
+    sample.value = spt_load(&chunk->distance[at]);
+    march_load_state(chunk, at, rays.scale, &ray);
+    march_judge(all, &rays, &ray, &sample);
     if (wants & SPTI_WANT_SLOPE) {
+        const spt_mask number = spt_mask_and_not(sample.legal, sample.rejected);
         audit.steepest = march_load(chunk, SPTI_STEEPEST, at);
-        march_slope(&pair, floor, number, &audit);
+        march_slope(&sample.pair, sample.floor, number, &audit);
     }
-    if (rule_blends || !rule_pending) march_accept(all, &pair, moved, &ray);
-    if (rule_probes) {
-        spt_wide turned_down[2] = {ray.memory[0], ray.memory[1]};
-        rule_rejected(turned_down);
-        for (int i = 0; i < rule_memory; ++i) {
-            ray.memory[i] = spt_select(rejected, turned_down[i], ray.memory[i]);
-        }
-    }
-    ray.t = spt_select(moved, probe, ray.t);
-    ray.value = spt_select(moved, sampled, ray.value);
-    ray.radius = spt_select(moved, sampled_radius, ray.radius);
+    march_move(all, &sample, &ray);
     if (wants & SPTI_WANT_CANDIDATE) {
+        const spt_mask number = spt_mask_and(sample.legal, sample.moved);
         audit.candidate_t = march_load(chunk, SPTI_CANDIDATE_T, at);
         audit.candidate_ratio = march_load(chunk, SPTI_CANDIDATE_RATIO, at);
-        march_candidate(&rays, &ray, spt_mask_and(moved, number), &audit);
+        march_candidate(&rays, &ray, number, &audit);
     }
-
-    if (rule_pending) {
-        /* Keep a rejected probe that was outside; and go to the kept one, at no evaluation, as soon
-         * as the certified sphere meets its own (the "trivial extension" of Keinert 3.1). */
-        const spt_mask outside = spt_mask_and(legal, spt_less(zero, sampled_radius));
-        const spt_mask kept = spt_mask_and(rejected, outside);
-        ray.pending_t = spt_select(rejected, spt_select(kept, probe, zero), ray.pending_t);
-        ray.pending_value = spt_select(rejected, sampled, ray.pending_value);
-        const spt_wide radius = spt_mul(ray.pending_value, rays.scale);
-        const spt_wide there = march_floor(all, &rays, ray.pending_t);
-        const spt_wide leap = spt_sub(ray.pending_t, ray.t);
-        const spt_mask ahead = spt_less(ray.t, ray.pending_t);
-        const spt_mask meets = march_overlap(all, ray.radius, radius, leap, there);
-        const spt_mask leaps =
-            spt_mask_and_not(spt_mask_and(ahead, meets), spt_mask_or(hit, nonfinite));
-        spti_pair leapt = {spt_max(leap, spt_splat(FLT_MIN)), ray.radius, radius};
-        if (wants & SPTI_WANT_SLOPE) march_slope(&leapt, there, leaps, &audit);
-        if (!rule_blends) {
-            leapt.step = spt_select(leaps, leapt.step, pair.step);
-            leapt.before = spt_select(leaps, leapt.before, pair.before);
-            leapt.after = spt_select(leaps, leapt.after, pair.after);
-        }
-        march_accept(all, &leapt, rule_blends ? leaps : spt_mask_or(moved, leaps), &ray);
-        ray.t = spt_select(leaps, ray.pending_t, ray.t);
-        ray.value = spt_select(leaps, ray.pending_value, ray.value);
-        ray.radius = spt_select(leaps, radius, ray.radius);
-        const spt_wide close = march_tolerance(all, &rays, ray.t, there);
-        hit = spt_mask_or(hit, spt_mask_and(leaps, spt_less(ray.radius, close)));
-        if (wants & SPTI_WANT_CANDIDATE) march_candidate(&rays, &ray, leaps, &audit);
-    }
+    if (rule_pending) march_leap(all, &rays, wants, &sample, &ray, &audit);
 
     spt_mask missed;
-    const spt_wide next = march_propose(all, &rays, &ray, rejected, &missed);
-    const spt_mask settled = spt_mask_or(hit, spt_mask_or(nonfinite, bracketed));
+    const spt_wide next = march_propose(all, &rays, &ray, sample.rejected, &missed);
+    const spt_mask settled =
+        spt_mask_or(sample.hit, spt_mask_or(sample.nonfinite, sample.bracketed));
     const spt_mask advances = spt_mask_and_not(spt_less(ray.t, next), missed);
     const spt_mask goes_on = spt_mask_and_not(advances, settled);
-    const unsigned finished = spt_mask_bits(spt_mask_and_not(everywhere, goes_on));
-    fates->finished = (uint16_t)(fates->finished | finished << shift);
-    fates->hit = (uint16_t)(fates->hit | spt_mask_bits(hit) << shift);
-    fates->missed =
-        (uint16_t)(fates->missed | spt_mask_bits(spt_mask_and_not(missed, settled)) << shift);
-    fates->nonfinite = (uint16_t)(fates->nonfinite | spt_mask_bits(nonfinite) << shift);
-    fates->bracketed = (uint16_t)(fates->bracketed | spt_mask_bits(bracketed) << shift);
+    march_add_fate(&fates->finished, spt_mask_and_not(spt_mask_splat(1), goes_on), shift);
+    march_add_fate(&fates->hit, sample.hit, shift);
+    march_add_fate(&fates->missed, spt_mask_and_not(missed, settled), shift);
+    march_add_fate(&fates->nonfinite, sample.nonfinite, shift);
+    march_add_fate(&fates->bracketed, sample.bracketed, shift);
 
-    march_store(chunk, SPTI_T, at, ray.t);
-    march_store(chunk, SPTI_VALUE, at, ray.value);
+    march_store_state(chunk, at, &ray);
+    march_store_points(chunk, at, next);
     /* A bracket is closed between t and the probe that crossed. */
-    march_store(chunk, SPTI_PROBE, at, spt_select(bracketed, probe, next));
-    for (int i = 0; i < rule_memory; ++i) {
-        march_store(chunk, SPTI_MEMORY + i, at, ray.memory[i]);
-    }
-    if (rule_pending) {
-        march_store(chunk, SPTI_PENDING_T, at, ray.pending_t);
-        march_store(chunk, SPTI_PENDING_VALUE, at, ray.pending_value);
-    }
+    march_store(chunk, SPTI_PROBE, at, spt_select(sample.bracketed, sample.t, next));
     if (wants & SPTI_WANT_SLOPE) march_store(chunk, SPTI_STEEPEST, at, audit.steepest);
     if (wants & SPTI_WANT_FALLBACKS) {
-        audit.fallbacks = march_load(chunk, SPTI_FALLBACKS, at);
-        const spt_wide more = spt_add(audit.fallbacks, spt_splat(1.0f));
-        march_store(chunk, SPTI_FALLBACKS, at, spt_select(rejected, more, audit.fallbacks));
+        const spt_wide before = march_load(chunk, SPTI_FALLBACKS, at);
+        const spt_wide more = spt_add(before, spt_splat(1.0f));
+        march_store(chunk, SPTI_FALLBACKS, at, spt_select(sample.rejected, more, before));
     }
     if (wants & SPTI_WANT_CANDIDATE) {
         march_store(chunk, SPTI_CANDIDATE_T, at, audit.candidate_t);
         march_store(chunk, SPTI_CANDIDATE_RATIO, at, audit.candidate_ratio);
     }
-    for (int axis = 0; axis < 3; ++axis) {
-        const spt_wide along = spt_mul(next, march_load(chunk, SPTI_DIRECTION + axis, at));
-        const spt_wide origin = march_load(chunk, SPTI_ORIGIN + axis, at);
-        march_store(chunk, SPTI_X + axis, at, spt_add(origin, along));
-    }
-    return finished;
 }
 
 /* One pass; see spti_march_fn. wants is a constant of SPTI_WANT_*. */
