@@ -241,6 +241,42 @@ check: $B/check$(EXE) $B/headers.ok $(if $(CXX_HERE),$B/exceptions$(EXE)) \
 	$(if $(CXX_HERE),@$(RUN) $B/exceptions$(EXE))
 	@$(RUN) $B/check$(EXE)
 
+# ---- Benches ------------------------------------------------------------------------------------
+
+BENCH_PLAIN := $(filter-out tests/bench/scalar_loop.c tests/bench/peak_lanes.c,\
+                 $(wildcard tests/bench/*.c))
+BENCH_OBJECTS := $(BENCH_PLAIN:%.c=$B/%.o) $B/tests/bench/scalar_loop.o \
+                 $(SCENE_LANES:%=$B/tests/bench/peak_lanes_%.o)
+# The scalar loop that the driver is measured against gets all that the machine has.
+NATIVE ?= -march=native
+
+$B/tests/bench/scalar_loop.o: tests/bench/scalar_loop.c $B/setup
+	@mkdir -p $(@D)
+	$(call SAY,$@)
+	$(Q)$(OWN) $(NATIVE) $(CFLAGS) -c $< -o $@
+
+define peak_object
+$B/tests/bench/peak_lanes_$(1).o: tests/bench/peak_lanes.c $B/setup
+	@mkdir -p $$(@D)
+	$$(call SAY,$$@)
+	$$(Q)$$(OWN) -DSPT_LANES=$(1) $$(scene_flags_$(1)) $$(CFLAGS) -c $$< -o $$@
+endef
+$(foreach lanes,$(SCENE_LANES),$(eval $(call peak_object,$(lanes))))
+
+$(BENCH_PLAIN:%.c=$B/%.o): $B/%.o: %.c $B/setup
+	@mkdir -p $(@D)
+	$(call SAY,$@)
+	$(Q)$(OWN) $(SCENE_MISSING) $(CFLAGS) -c $< -o $@
+
+$B/driver_bench$(EXE): $(BENCH_OBJECTS) $(SCENES) $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
+
+# QUICK=1: smaller pictures and fewer rounds.
+bench: $B/driver_bench$(EXE)
+	@mkdir -p $B/bench
+	$(RUN) $B/driver_bench$(EXE) $(if $(QUICK),--quick) --output $B/bench
+
 # ---- Installing ---------------------------------------------------------------------------------
 
 install: all

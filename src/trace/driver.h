@@ -21,12 +21,15 @@ typedef struct spti_call {
     size_t array_count;
 } spti_call;
 
-/* A ray that leaves a chunk. */
-typedef struct spti_leave {
-    spt_outcome outcome;
-    uint32_t evaluations;
-    int steep;
-} spti_leave;
+/* Rays that leave a chunk together. */
+typedef struct spti_leavers {
+    size_t count;
+    uint32_t evaluations;  /* of each, and */
+    const uint16_t *extra; /* by index, those before the first pass; or NULL */
+    int steep;             /* a bracket betrayed the field */
+    uint16_t slots[SPT_BATCH];
+    unsigned char outcomes[SPT_BATCH];
+} spti_leavers;
 
 /* Takes in a caller's field and the bound it points to; 0 where either breaks its rules. */
 int spti_field_copy(spt_field *to, spt_bound *bound, const spt_field *from);
@@ -38,10 +41,10 @@ void spti_trace_chunk(const spti_call *call, size_t first, size_t window);
  * chunk->distance; what it does not write is NaN. */
 void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n);
 
-/* Writes the results of the ray in a slot; `first` is the number of the chunk's first ray. For
- * SPT_NONFINITE, SPT_HIT and SPT_LIMIT t and f are those of the slot. */
-void spti_write_hit(const spti_call *call, const spti_chunk *chunk, size_t slot, size_t first,
-                    spti_leave leave);
+/* Writes the results of rays; `first` is the number of the chunk's first ray. For SPT_NONFINITE,
+ * SPT_HIT and SPT_LIMIT t and f are those of the slot. */
+void spti_write_hits(const spti_call *call, const spti_chunk *chunk, const spti_leavers *leavers,
+                     size_t first);
 
 /* Finishes the `count` bracketed rays in the last slots of the chunk. */
 void spti_close_brackets(const spti_call *call, spti_chunk *chunk, size_t count, size_t first);

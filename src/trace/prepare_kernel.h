@@ -86,6 +86,11 @@ SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, size
     spt_store(&chunk->array[SPTI_FLOOR_AT_0][at], floor_at_0);
     spt_store(&chunk->array[SPTI_T][at], t_min);
     spt_store(&chunk->array[SPTI_PROBE][at], t_min);
+    spt_store(&chunk->array[SPTI_VALUE][at], spt_splat(INFINITY)); /* where nothing is evaluated */
+    for (int array = SPTI_MEMORY; array < SPTI_CANDIDATE_RATIO; ++array) {
+        spt_store(&chunk->array[array][at], zero);
+    }
+    spt_store(&chunk->array[SPTI_CANDIDATE_RATIO][at], spt_splat(INFINITY));
     for (int axis = 0; axis < 3; ++axis) {
         const spt_wide along = spt_mul(t_min, ray.direction[axis]);
         spt_store(&chunk->array[SPTI_DIRECTION + axis][at], ray.direction[axis]);

@@ -117,9 +117,14 @@ static float split(spti_chunk *chunk, size_t slot, uint32_t turn) {
 /* Ends a bracket; the outcome's t and f stand in the slot. */
 static void leave(const spti_call *call, spti_chunk *chunk, size_t slot, size_t first,
                   spt_outcome outcome) {
-    spti_leave how = {outcome, 0, 1};
-    memcpy(&how.evaluations, &chunk->array[SPTI_PENDING_VALUE][slot], sizeof how.evaluations);
-    spti_write_hit(call, chunk, slot, first, how);
+    spti_leavers alone;
+    alone.count = 1;
+    alone.extra = NULL; /* counted in already */
+    alone.steep = 1;
+    alone.slots[0] = (uint16_t)slot;
+    alone.outcomes[0] = (unsigned char)outcome;
+    memcpy(&alone.evaluations, &chunk->array[SPTI_PENDING_VALUE][slot], sizeof(uint32_t));
+    spti_write_hits(call, chunk, &alone, first);
 }
 
 /* Whether the ray in a slot needs another sample at t, its next; otherwise it was written out. */
