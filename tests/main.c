@@ -10,9 +10,13 @@
 
 enum { seed = 20141202, printed_failures = 3 };
 
+enum { most_filters = 64 };
+
 static struct {
     char **filters;
     int filter_count;
+    char used[most_filters]; /* filters that found a test */
+    const char *suite;
     int passed, failed, skipped;
     int failures; /* of the running test */
     int skip;     /* the running test asked for it */
@@ -21,10 +25,15 @@ static struct {
 } state;
 
 static int wanted(const char *name) {
+    int found = state.filter_count == 0;
     for (int i = 0; i < state.filter_count; ++i) {
-        if (strncmp(name, state.filters[i], strlen(state.filters[i])) == 0) return 1;
+        if (strncmp(name, state.filters[i], strlen(state.filters[i])) == 0 ||
+            strcmp(state.suite, state.filters[i]) == 0) {
+            state.used[i] = 1;
+            found = 1;
+        }
     }
-    return state.filter_count == 0;
+    return found;
 }
 
 void check_run(const char *name, void (*test)(void)) {
@@ -105,13 +114,20 @@ int check_same_bits(float a, float b) {
 
 int main(int count, char **arguments) {
     state.filters = arguments + 1;
-    state.filter_count = count - 1;
+    state.filter_count = count - 1 < most_filters ? count - 1 : most_filters;
     printf("random numbers from seed %d\n", seed);
-#define SUITE(name) suite_##name();
+#define SUITE(name) \
+    state.suite = #name; \
+    suite_##name();
 #include "suites.h"
 #undef SUITE
+    for (int i = 0; i < state.filter_count; ++i) {
+        if (state.used[i]) continue;
+        printf("FAILED %s: no such test or suite\n", state.filters[i]);
+        ++state.failed;
+    }
     printf("%d passed, %d failed", state.passed, state.failed);
     if (state.skipped != 0) printf(", %d skipped", state.skipped);
     printf("\n");
-    return state.failed != 0 || state.passed == 0;
+    return state.failed != 0 || state.passed + state.skipped == 0;
 }

@@ -16,7 +16,9 @@
  * Without -fno-math-errno nothing that contains sqrtf vectorises (measured: 48 ns an evaluation
  * instead of 5), and gcc -O2 vectorises few such loops. To ship one program for all machines,
  * compile the file once for each width and choose by spt_lanes(), the width the library will use.
- * spt_field_measure() shows whether it worked. */
+ * Choose by `a < b ? a : b` between two computed values only: where one side is a constant, or
+ * either holds work of its own, gcc makes a branch and the loop stays scalar, without a warning.
+ * shapes.h has selections that vectorise. spt_field_measure() shows whether it worked. */
 #ifndef SPHERETRACE_FIELD_H
 #define SPHERETRACE_FIELD_H
 

@@ -17,8 +17,9 @@
  * A shape is moved by moving the point the other way before asking, so the operator written last
  * acts on the shape first. What is built (spt_arc_of, spt_rotation_of) is built before the loop.
  * Every function here vectorises inside such a loop with gcc and clang, from SSE2 to AVX-512. Your
- * own choices do if they are made with spt_choose(), spt_least(), spt_greatest(), spt_clamp() and
- * so on instead of branches, and without functions of the C library other than sqrtf and fabsf.
+ * own code does if it makes no branches and calls no function of the C library other than sqrtf and
+ * fabsf. Choose with spt_least() and spt_greatest() between two values, with spt_positive(),
+ * spt_negative() and spt_clamp() where one is a constant, and with spt_choose() else.
  *
  * WHAT IS SAID OF EACH. Lengths are in the unit of the scene, angles in radians.
  *   exact        the Euclidean distance to the surface, negative inside
@@ -31,8 +32,9 @@
  *
  * NUMBERS. A file that defines SPT_SHAPES_DOUBLE before the include gets all of it in double, with
  * the same formulas: a reference to test against.
- *   range     arguments below 1e18 in magnitude; coordinates of points below 1e19, where squares
- *             begin to overflow. Beyond, a body is infinitely far; no finite point gives NaN.
+ *   range     lengths of bodies, blends and periods 0 or from 1e-15 to 1e18; coordinates of points
+ *             below 1e19, where squares begin to overflow. Beyond, a body is infinitely far; no
+ *             finite point gives NaN.
  *   rounding  the value is off by less than 1e-6 times the sum of the coordinates and the size of
  *             the body (times L); the general exponents by twice that.
  *   bits      one IEEE operation after the other, no function of the C library: with

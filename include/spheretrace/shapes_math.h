@@ -60,8 +60,8 @@ SPT_SHAPE spt_point spt_point_of(spt_real x, spt_real y, spt_real z) {
 }
 
 /* a < b ? a : b and a > b ? a : b, hence b if either is NaN or both are zeros: one instruction,
- * unlike fmin and fmax. With 0 or another constant use spt_positive(), spt_negative(), spt_clamp().
- * */
+ * unlike fmin and fmax. Where one side is a constant use spt_positive(), spt_negative() or
+ * spt_clamp(). */
 SPT_SHAPE spt_real spt_least(spt_real a, spt_real b) {
     return a < b ? a : b;
 }
@@ -83,29 +83,46 @@ SPT_SHAPE spt_real spt_real_of(spt_bits bits) {
     return x;
 }
 
-/* condition ? a : b; condition must be 0 or 1, so a comparison. Both sides are computed. By bits,
- * since gcc makes a branch of a ternary, moves into it the work that only one side needs (or folds
- * what follows for a side that is a constant), and then does not vectorise the loop. Safe as a
- * ternary is only what compares its own two sides, neither of them a constant. clang sees through
- * the bits and makes a maximum of a maximum. */
-SPT_SHAPE spt_real spt_choose(int condition, spt_real a, spt_real b) {
-    const spt_bits mask = 0 - (spt_bits)condition;
-    return spt_real_of((spt_bits_of(a) & mask) | (spt_bits_of(b) & ~mask));
+/* The sign bit of x, all others 0. */
+SPT_SHAPE spt_bits spt_sign_bit(spt_real x) {
+    return spt_bits_of(x) & ((spt_bits)1 << (8 * sizeof(spt_bits) - 1));
+}
+
+/* Zero as a side of spt_least() and spt_greatest(); added to a constant, it makes that one fit to
+ * be a side. gcc computes what follows a selection once for each side if that spares work, as it
+ * does for a constant side (0 * 0 is 0): the selection becomes a branch and the loop does not
+ * vectorise. So gcc gets a zero that it does not know, with the sign of x, any variable; clang is
+ * better off with 0. The result must not depend on the sign of the zero. */
+SPT_SHAPE spt_real spti_shape_zero(spt_real x) {
+#if defined(__clang__)
+    (void)x;
+    return 0;
+#else
+    return spt_real_of(spt_sign_bit(x));
+#endif
 }
 
 /* max(x, 0) and min(x, 0), and 0 if x is NaN: the place where an infinity minus itself ends. */
 SPT_SHAPE spt_real spt_positive(spt_real x) {
-    return spt_choose(x > 0, x, 0);
+    return spt_greatest(x, 0 + spti_shape_zero(x)); /* 0 + -0 is 0 */
 }
 
 SPT_SHAPE spt_real spt_negative(spt_real x) {
-    return spt_choose(x < 0, x, 0);
+    return spt_least(x, 0 + spti_shape_zero(x));
 }
 
 /* x brought into [low, high]; low if x is NaN. */
 SPT_SHAPE spt_real spt_clamp(spt_real x, spt_real low, spt_real high) {
-    const spt_real above = spt_choose(x > low, x, low);
-    return spt_choose(above < high, above, high);
+    const spt_real zero = spti_shape_zero(x);
+    return spt_least(spt_greatest(x, low + zero), high + zero);
+}
+
+/* condition ? a : b; condition must be 0 or 1, so a comparison. Both sides are computed, where gcc
+ * would make of a ternary a branch with the work of each side in it, and not vectorise the loop.
+ * For one point at a time it costs about 1 ns more than a branch that is predicted. */
+SPT_SHAPE spt_real spt_choose(int condition, spt_real a, spt_real b) {
+    const spt_bits mask = 0 - (spt_bits)condition;
+    return spt_real_of((spt_bits_of(a) & mask) | (spt_bits_of(b) & ~mask));
 }
 
 /* |x| */
@@ -141,12 +158,8 @@ SPT_SHAPE spt_real spt_length_3(spt_real x, spt_real y, spt_real z) {
     return spt_root(x * x + y * y + z * z);
 }
 
-/* The sign bit of x, and x brought into [-limit, limit], limit > 0; the limit of its sign for NaN.
- * Positive numbers are ordered as their bits are. */
-SPT_SHAPE spt_bits spt_sign_bit(spt_real x) {
-    return spt_bits_of(x) & ((spt_bits)1 << (8 * sizeof(spt_bits) - 1));
-}
-
+/* x brought into [-limit, limit], limit > 0; the limit of its sign for NaN. By bits, as positive
+ * numbers are ordered as their bits are. */
 SPT_SHAPE spt_real spt_limit(spt_real x, spt_real limit) {
     const spt_bits sign = spt_sign_bit(x);
     const spt_signed_bits magnitude = (spt_signed_bits)(spt_bits_of(x) ^ sign);

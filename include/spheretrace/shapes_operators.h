@@ -34,8 +34,9 @@ SPT_SHAPE spt_real spt_difference(spt_real a, spt_real b) {
  * larger of the two, and it is a lower bound of the distance to the blended body. 8 flop, and a
  * division that depends on k only. */
 SPT_SHAPE spt_real spt_smooth_union(spt_real a, spt_real b, spt_real k) {
-    const spt_real quarter = spt_choose(k >= SPT_REAL_MIN, (spt_real)0.25 / k, 0);
-    const spt_real h = spt_positive(k - spt_magnitude(a - b)); /* 0 for inf - inf */
+    const spt_real quarter = (spt_real)0.25 / (k + SPT_REAL_MIN); /* finite if k = 0 */
+    /* zero for inf - inf */
+    const spt_real h = spt_greatest(k - spt_magnitude(a - b), spti_shape_zero(a));
     return spt_least(a, b) - h * (h * quarter);
 }
 
@@ -153,9 +154,10 @@ SPT_SHAPE spt_point spt_scale(spt_point p, spt_real factor) {
  * outside if it was, and L is what it was. Otherwise it may exceed the distance to a neighbour's
  * part, and rays pass through that. 15 flop. */
 SPT_SHAPE spt_point spt_repeat(spt_point p, spt_point period) {
-    const spt_real x = spt_choose(period.x > 0, 1 / period.x, 0);
-    const spt_real y = spt_choose(period.y > 0, 1 / period.y, 0);
-    const spt_real z = spt_choose(period.z > 0, 1 / period.z, 0);
+    /* finite if the period is 0, by which the number of the cell is then multiplied */
+    const spt_real x = 1 / (period.x + SPT_REAL_MIN);
+    const spt_real y = 1 / (period.y + SPT_REAL_MIN);
+    const spt_real z = 1 / (period.z + SPT_REAL_MIN);
     return spt_point_of(p.x - period.x * (spt_real)spt_nearest(spt_limit(p.x * x, 4194304)),
                         p.y - period.y * (spt_real)spt_nearest(spt_limit(p.y * y, 4194304)),
                         p.z - period.z * (spt_real)spt_nearest(spt_limit(p.z * z, 4194304)));

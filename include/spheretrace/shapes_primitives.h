@@ -27,8 +27,10 @@ SPT_SHAPE spt_real spt_box(spt_point p, spt_point half) {
     const spt_real y = spt_magnitude(p.y) - half.y;
     const spt_real z = spt_magnitude(p.z) - half.z;
     const spt_real inside = spt_greatest(x, spt_greatest(y, z));
-    const spt_real outside = spt_length_3(spt_positive(x), spt_positive(y), spt_positive(z));
-    return outside + spt_negative(inside);
+    const spt_real zero = spti_shape_zero(p.x);
+    const spt_real outside =
+        spt_length_3(spt_greatest(x, zero), spt_greatest(y, zero), spt_greatest(z, zero));
+    return outside + spt_least(inside, zero);
 }
 
 /* Box with edges and corners rounded off. half: half the outer edge lengths, rounding included;
@@ -63,9 +65,9 @@ SPT_SHAPE spt_real spt_capped_torus(spt_point p, spt_real sine, spt_real cosine,
 SPT_SHAPE spt_real spt_capsule(spt_point p, spt_point a, spt_point b, spt_real radius) {
     const spt_point axis = spt_point_of(b.x - a.x, b.y - a.y, b.z - a.z);
     const spt_point q = spt_point_of(p.x - a.x, p.y - a.y, p.z - a.z);
-    const spt_real square = spt_dot(axis, axis);
-    const spt_real inverse = spt_choose(square >= SPT_REAL_MIN, 1 / square, 0);
-    const spt_real h = spt_clamp(spt_dot(q, axis) * inverse, 0, 1);
+    const spt_real inverse = 1 / (spt_dot(axis, axis) + SPT_REAL_MIN); /* finite if a = b */
+    const spt_real zero = spti_shape_zero(p.x);
+    const spt_real h = spt_least(spt_greatest(spt_dot(q, axis) * inverse, zero), 1 + zero);
     return spt_length_3(q.x - axis.x * h, q.y - axis.y * h, q.z - axis.z * h) - radius;
 }
 
@@ -74,8 +76,9 @@ SPT_SHAPE spt_real spt_capsule(spt_point p, spt_point a, spt_point b, spt_real r
 SPT_SHAPE spt_real spt_cylinder(spt_point p, spt_real half_height, spt_real radius) {
     const spt_real x = spt_length_2(p.x, p.z) - radius;
     const spt_real y = spt_magnitude(p.y) - half_height;
-    const spt_real outside = spt_length_2(spt_positive(x), spt_positive(y));
-    return outside + spt_negative(spt_greatest(x, y));
+    const spt_real zero = spti_shape_zero(p.x);
+    const spt_real outside = spt_length_2(spt_greatest(x, zero), spt_greatest(y, zero));
+    return outside + spt_least(spt_greatest(x, y), zero);
 }
 
 /* Closed cone: apex at the origin, opening downwards along -y, flat base at y = -height. height >
@@ -89,10 +92,12 @@ SPT_SHAPE spt_real spt_cone(spt_point p, spt_real height, spt_real sine, spt_rea
     const spt_real base = v - height;
     const spt_real inside = spt_greatest(side, base);
     /* nearest points of the side and of the base in the half plane (r, v) */
-    const spt_real along = spt_clamp(sine * r + cosine * v, 0, height / cosine);
+    const spt_real zero = spti_shape_zero(p.x);
+    const spt_real along =
+        spt_least(spt_greatest(sine * r + cosine * v, zero), height / cosine + zero);
     const spt_real side_r = r - sine * along;
     const spt_real side_v = v - cosine * along;
-    const spt_real base_r = spt_positive(r - height * sine / cosine);
+    const spt_real base_r = spt_greatest(r - height * sine / cosine, zero);
     const spt_real outside =
         spt_root(spt_least(side_r * side_r + side_v * side_v, base_r * base_r + base * base));
     return spt_choose(inside > 0, outside, inside);

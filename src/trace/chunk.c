@@ -63,7 +63,7 @@ static size_t load_chunk(const spti_call *call, spti_chunk *chunk, size_t first,
     load_column(chunk, SPTI_T, &rays->t_min, 0, count, first, window);
     load_column(chunk, SPTI_T_MAX, &rays->t_max, INFINITY, count, first, window);
     load_column(chunk, SPTI_PATH, &rays->path, 0, count, first, window);
-    for (size_t slot = 0; slot < count; ++slot) chunk->array[SPTI_INDEX][slot] = (float)slot;
+    for (size_t slot = 0; slot < SPT_BATCH; ++slot) chunk->array[SPTI_INDEX][slot] = (float)slot;
     return count;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * What the driver achieves: its speed against a scalar loop, what it costs besides the callback, and
- * how many evaluations the step rules need.
+ * What the driver achieves: its speed against a scalar loop, what it costs besides the callback,
+ * and how many evaluations the step rules need.
  *     driver [--quick] [--output DIR]
  * --quick: smaller pictures and fewer rounds. Fails where the results of library and scalar loop
  * differ in a bit; a target that is not reached is printed and no failure. */

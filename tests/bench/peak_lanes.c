@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * The two loops whose speed is the limit at one width: PEAK_CHAINS that do not wait for one another.
+ * The two loops whose speed is the limit at one width: chains that do not wait for one another.
  * Compiled once for each width, with SPT_LANES and its flags, as the scenes are. */
 #ifndef SPT_LANES
 #define SPT_LANES 1

@@ -49,7 +49,8 @@ SPT_SHAPE float scalar_sample(scalar_distance_fn *distance, const scalar_ray *ra
                                  ray->origin[2] + t * ray->direction[2]));
 }
 
-/* Whether spheres of radius a and b, `apart`, overlap by more than rounding can feign. */
+/* Whether spheres of radius a and b, `apart`, overlap by more than rounding can feign. With a probe
+ * beyond the first sphere, apart > a, none that is inside does: the margin covers the rounding. */
 SPT_SHAPE int scalar_overlap(float a, float b, float apart, float floor) {
     return apart * (1.0f + SCALAR_FLOOR) + floor < a + b;
 }
@@ -62,11 +63,19 @@ SPT_SHAPE void scalar_leave(bench_hit *hit, spt_outcome outcome, uint32_t evalua
     hit->evaluations = evaluations;
 }
 
-/* Between t = a, where f is fa, and a sample b on the other side. Seldom: a field that is no
+/* The last certified sample. */
+typedef struct scalar_standing {
+    float t, value, r;
+    uint32_t evaluations;
+} scalar_standing;
+
+/* Between the last certified sample and one at b on the other side. Seldom: a field that is no
  * distance bound. */
 static void scalar_close_bracket(scalar_distance_fn *distance, const scalar_ray *ray,
-                                 uint32_t budget, uint32_t evaluations, float a, float fa, float b,
-                                 float fb, bench_hit *hit) {
+                                 uint32_t budget, const scalar_standing *at, float b, float fb,
+                                 bench_hit *hit) {
+    float a = at->t, fa = at->value;
+    uint32_t evaluations = at->evaluations;
     for (int turn = 0;; ++turn) {
         const float width = b - a, margin = 0.05f * width;
         const float before = fa * ray->scale, behind = fb * ray->scale;
@@ -136,82 +145,84 @@ SPT_SHAPE void scalar_accepted(scalar_rule rule, const spt_settings *settings, f
     }
 }
 
-/* One ray, marched from t. */
+/* The sample at t_min. Returns whether the ray ends there. */
+SPT_SHAPE int scalar_start(scalar_distance_fn *distance, scalar_ray *ray, scalar_standing *at,
+                           bench_hit *hit) {
+    at->value = scalar_sample(distance, ray, at->t);
+    at->evaluations = 1;
+    ray->scale = at->value < 0.0f ? -ray->scale : ray->scale;
+    at->r = at->value * ray->scale;
+    const int number = at->value >= -FLT_MAX;
+    const float tolerance = scalar_tolerance(ray, at->t, scalar_floor(ray, at->t));
+    if (number && !(at->r < tolerance)) return 0;
+    scalar_leave(hit, number ? SPT_HIT : SPT_NONFINITE, 1, at->t, at->value);
+    return 1;
+}
+
+/* Whether the ray ends with a certified sample at t. */
+SPT_SHAPE int scalar_ends(scalar_distance_fn *distance, const scalar_ray *ray, uint32_t budget,
+                          const scalar_standing *at, float t, float value, float floor,
+                          bench_hit *hit) {
+    const float tolerance = scalar_tolerance(ray, t, floor), r = value * ray->scale;
+    if (r >= tolerance) return 0;
+    if (!(value >= -FLT_MAX)) {
+        scalar_leave(hit, SPT_NONFINITE, at->evaluations, t, value);
+    } else if (!(-tolerance < r)) {
+        scalar_close_bracket(distance, ray, budget, at, t, value, hit);
+    } else {
+        scalar_leave(hit, SPT_HIT, at->evaluations, t, value);
+    }
+    return 1;
+}
+
+/* A rejected probe that may be reached later; t 0: none. */
+typedef struct scalar_pending {
+    float t, value, r;
+} scalar_pending;
+
+/* One ray, marched from at->t. */
 SPT_SHAPE void scalar_march(scalar_distance_fn *distance, scalar_rule rule,
-                            const spt_settings *settings, scalar_ray *ray, float t,
+                            const spt_settings *settings, scalar_ray *ray, float t_min,
                             bench_hit *hit) {
     const int probes = rule != rule_basic && rule != rule_convex;
-    const int pending = probes && rule != rule_enhanced;
-    const uint32_t budget = settings->budget;
+    const int keeps = probes && rule != rule_enhanced;
     scalar_memory memory = {0.0f, -1.0f, 0.0f, 0.0f}; /* all make a plain first step */
-    float pending_t = 0.0f, pending_r = 0.0f, pending_value = 0.0f;
-    float value = scalar_sample(distance, ray, t), floor = scalar_floor(ray, t);
-    uint32_t evaluations = 1;
-    ray->scale = value < 0.0f ? -ray->scale : ray->scale;
-    float r = value * ray->scale;
-    if (!(value >= -FLT_MAX)) {
-        scalar_leave(hit, SPT_NONFINITE, evaluations, t, value);
-        return;
-    }
-    if (r < scalar_tolerance(ray, t, floor)) {
-        scalar_leave(hit, SPT_HIT, evaluations, t, value);
-        return;
-    }
+    scalar_pending pending = {0.0f, 0.0f, 0.0f};
+    scalar_standing at = {t_min, 0.0f, 0.0f, 0};
+    if (scalar_start(distance, ray, &at, hit)) return;
     for (int plain = 0;;) {
-        int missed = !(t + r <= ray->t_max);
-        float step = r;
+        int missed = !(at.t + at.r <= ray->t_max);
+        float step = at.r;
         if (!plain && !missed) {
-            step = scalar_step(rule, settings, ray, &memory, t, r, &missed);
-            step = scalar_max(scalar_min(step, ray->t_max - t), r);
-            if (pending && t < pending_t && pending_t - pending_r < t + step) step = r;
+            step = scalar_step(rule, settings, ray, &memory, at.t, at.r, &missed);
+            step = scalar_max(scalar_min(step, ray->t_max - at.t), at.r);
+            if (keeps && at.t < pending.t && pending.t - pending.r < at.t + step) step = at.r;
         }
-        const float next = scalar_min(t + step, ray->t_max);
-        if (missed || !(t < next) || evaluations == budget) {
-            scalar_leave(hit, missed ? SPT_MISS : SPT_LIMIT, evaluations, t, value);
+        const float next = scalar_min(at.t + step, ray->t_max);
+        if (missed || !(at.t < next) || at.evaluations == settings->budget) {
+            scalar_leave(hit, missed ? SPT_MISS : SPT_LIMIT, at.evaluations, at.t, at.value);
             return;
         }
-        const float sampled = scalar_sample(distance, ray, next), sampled_r = sampled * ray->scale;
-        const float made = next - t;
-        ++evaluations;
-        floor = scalar_floor(ray, next);
-        if (probes && next > t + r &&
-            !(sampled_r >= 0.0f && scalar_overlap(r, sampled_r, made, floor))) {
+        const float value = scalar_sample(distance, ray, next), r = value * ray->scale;
+        const float made = next - at.t, floor = scalar_floor(ray, next);
+        ++at.evaluations;
+        plain = probes && next > at.t + at.r && !scalar_overlap(at.r, r, made, floor);
+        if (plain) {
             if (rule == rule_auto_relaxed) memory.slope = -1.0f;
-            pending_t = sampled_r > 0.0f ? next : 0.0f;
-            pending_value = sampled;
-            pending_r = sampled_r;
-            plain = 1;
+            pending = (scalar_pending){r > 0.0f ? next : 0.0f, value, r};
             continue;
         }
-        const float tolerance = scalar_tolerance(ray, next, floor);
-        if (!(sampled >= -FLT_MAX)) {
-            scalar_leave(hit, SPT_NONFINITE, evaluations, next, sampled);
+        if (scalar_ends(distance, ray, settings->budget, &at, next, value, floor, hit)) return;
+        scalar_accepted(rule, settings, made, at.r, r, &memory);
+        at = (scalar_standing){next, value, r, at.evaluations};
+        if (!keeps || !(at.t < pending.t)) continue;
+        const float there = scalar_floor(ray, pending.t), leap = pending.t - at.t;
+        if (!scalar_overlap(at.r, pending.r, leap, there)) continue;
+        scalar_accepted(rule, settings, leap, at.r, pending.r, &memory);
+        at = (scalar_standing){pending.t, pending.value, pending.r, at.evaluations};
+        if (at.r < scalar_tolerance(ray, at.t, there)) {
+            scalar_leave(hit, SPT_HIT, at.evaluations, at.t, at.value);
             return;
-        }
-        if (!(-tolerance < sampled_r)) {
-            scalar_close_bracket(distance, ray, budget, evaluations, t, value, next, sampled, hit);
-            return;
-        }
-        if (sampled_r < tolerance) {
-            scalar_leave(hit, SPT_HIT, evaluations, next, sampled);
-            return;
-        }
-        scalar_accepted(rule, settings, made, r, sampled_r, &memory);
-        plain = 0;
-        t = next;
-        value = sampled;
-        r = sampled_r;
-        if (pending && t < pending_t) {
-            const float there = scalar_floor(ray, pending_t), leap = pending_t - t;
-            if (!scalar_overlap(r, pending_r, leap, there)) continue;
-            scalar_accepted(rule, settings, leap, r, pending_r, &memory);
-            t = pending_t;
-            value = pending_value;
-            r = pending_r;
-            if (r < scalar_tolerance(ray, t, there)) {
-                scalar_leave(hit, SPT_HIT, evaluations, t, value);
-                return;
-            }
         }
     }
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * The opponent: what an expert writes who needs one scene and one step rule and has no vectors. One
- * ray at a time, the distance inlined, no audit; the same rule, stop and rounding as the library, so
- * that every result has the same bits. */
+ * ray at a time, the distance inlined, no audit; the same rule, stop and rounding as the library,
+ * so that every result has the same bits. */
 #ifndef TESTS_BENCH_SCALAR_LOOP_H
 #define TESTS_BENCH_SCALAR_LOOP_H
 
@@ -15,8 +15,8 @@ typedef struct bench_hit {
     uint32_t evaluations;
 } bench_hit;
 
-/* Traces count rays as spt_trace() does with a finite t_max, a direction near length 1 and no flags.
- * field: its lipschitz and its bound only. */
+/* Traces count rays as spt_trace() does with a finite t_max, a direction near length 1 and no
+ * flags. field: its lipschitz and its bound only. */
 typedef void scalar_trace_fn(const spt_field *field, const spt_settings *settings, size_t count,
                              const spt_ray *rays, bench_hit *hits);
 

@@ -26,8 +26,18 @@ static double resolution(const spt_ray *ray, double t) {
     return 8 * 0x1p-24 * (reach + t);
 }
 
+/* Where the library starts, so that a field that is no distance bound is sampled alike. */
+static double start_of(const scene *shown, const spt_ray *ray) {
+    float entry = ray->t_min, leaving = ray->t_max;
+    if (shown->bound != NULL) {
+        spt_bound_interval(shown->bound, ray->origin, ray->direction, ray->t_min, ray->t_max,
+                           &entry, &leaving);
+    }
+    return (double)entry;
+}
+
 double truth_last_t(const scene *shown, const spt_settings *settings, const spt_ray *ray) {
-    double t = (double)ray->t_min;
+    double t = start_of(shown, ray);
     int entered = 0;
     for (int i = 0; i < MOST_STEPS && t <= (double)ray->t_max; ++i) {
         const double noise = resolution(ray, t);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * One loop over points for each function of shapes.h. Not linked into anything: the compiler must
- * report that it vectorised every one of them (see the check in .ci/run). */
+ * report that it vectorised every one of them, see vectorise.sh. */
 #include <spheretrace/shapes.h>
 
 #define COUNT 256
@@ -77,7 +77,30 @@ LOOP(scale, sum(spt_scale(p, 3)))
 LOOP(repeat, sum(spt_repeat(p, half)))
 LOOP(twist, sum(spt_twist(p, 0.5f)))
 LOOP(bend, sum(spt_bend(p, 0.5f)))
+LOOP(positive, spt_positive(p.x) * spt_positive(p.x))
+LOOP(negative, 1 / (spt_negative(p.x) - 1))
+LOOP(clamp, p.y - 2 * spt_clamp(p.x, 0, 1))
+LOOP(choose, spt_choose(p.x > p.y, p.x *p.x, spt_root(p.z)))
 LOOP(sin, spt_sin(p.x))
 LOOP(cos, spt_cos(p.x))
 LOOP(exp, spt_exp(p.x))
 LOOP(log, spt_log(p.x))
+
+/* What a callback reads from its user pointer: no constants. */
+typedef struct scene {
+    spt_point a, b;
+    spt_half_space planes[6];
+    float size, blend;
+} scene;
+extern const scene vectorise_scene;
+static const scene *const s = &vectorise_scene;
+
+LOOP(box_of_scene, spt_box(p, s->a))
+LOOP(capsule_of_scene, spt_capsule(p, s->a, s->b, s->size))
+LOOP(cone_of_scene, spt_cone(p, s->size, s->a.x, s->a.y))
+LOOP(slabs_of_scene, spt_slabs(p, 6, s->planes))
+LOOP(generalised_slabs_of_scene, spt_generalised_slabs(p, 6, s->planes, s->size))
+LOOP(repeat_of_scene, sum(spt_repeat(p, s->a)))
+LOOP(smooth_of_scene,
+     spt_smooth_difference(spt_box(spt_translate(p, s->a), s->b), spt_sphere(p, s->size), s->blend))
+LOOP(clamp_of_scene, spt_clamp(p.x, s->size, s->blend))

@@ -65,6 +65,9 @@ static void selections(void) {
     CHECK(check_same_bits(spt_choose(0, 2, -0.0f), -0.0f));
     CHECK(spt_positive(-1) == 0 && spt_positive(2) == 2 && spt_positive(-(float)HUGE_VAL) == 0);
     CHECK(spt_negative(-1) == -1 && spt_negative(2) == 0);
+    /* no zero of the other sign, whatever the compiler gets for zero */
+    CHECK(check_same_bits(spt_positive(-1), 0) && check_same_bits(spt_positive(-0.0f), 0));
+    CHECK(check_same_bits(spt_negative(1), 0) && check_same_bits(spt_clamp(-1, 0, 1), 0));
     CHECK(spt_positive((float)NAN) == 0 && spt_negative((float)NAN) == 0);
     CHECK(spt_clamp(-3, -1, 2) == -1 && spt_clamp(3, -1, 2) == 2 && spt_clamp(1, -1, 2) == 1);
     CHECK(spt_clamp((float)NAN, -1, 2) == -1);
