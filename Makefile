@@ -144,9 +144,9 @@ SCENE_LANES := 1 $(if $(filter sse2,$(ISAS)),4) $(if $(filter avx2,$(ISAS)),8) \
 scene_flags_1 := -fno-tree-vectorize
 scene_flags_8 := -mavx2
 scene_flags_16 := -mavx512f -mprefer-vector-width=512
-SCENE_MISSING := $(if $(filter 4,$(SCENE_LANES)),,-DSCENE_ONLY_SCALAR) \
-                 $(if $(filter 8,$(SCENE_LANES)),,-DSCENE_NO_AVX2) \
-                 $(if $(filter 16,$(SCENE_LANES)),,-DSCENE_NO_AVX512)
+SCENE_MISSING := $(if $(filter 4,$(SCENE_LANES)),\
+                   $(if $(filter 8,$(SCENE_LANES)),,-DSCENE_NO_AVX2) \
+                   $(if $(filter 16,$(SCENE_LANES)),,-DSCENE_NO_AVX512),-DSCENE_ONLY_SCALAR)
 SCENE_PLAIN := $(filter-out examples/scenes/scenes_lanes.c,$(wildcard examples/scenes/*.c))
 SCENES := $B/examples/scenes.a
 OWN := $(COMPILE) -Iexamples -Itests

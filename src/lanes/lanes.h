@@ -21,6 +21,12 @@ SPTI_INLINE void spti_compress(float *to, spt_wide a, unsigned keep);
  * narrower vectors want them. Compilers do that by themselves only when they optimise. */
 SPTI_INLINE void spti_clear_upper(void);
 
+/* mask and a < b; mask and not a < b, so true for NaN. One instruction where masks are registers of
+ * their own. */
+SPTI_INLINE spt_mask spti_less_in(spt_mask mask, spt_wide a, spt_wide b);
+SPTI_INLINE spt_mask spti_not_less_in(spt_mask mask, spt_wide a, spt_wide b);
+SPTI_INLINE spt_mask spti_mask_not(spt_mask a);
+
 #if SPT_LANES == 16
 #include "lanes_avx512.h"
 #elif SPT_LANES == 8
@@ -29,6 +35,20 @@ SPTI_INLINE void spti_clear_upper(void);
 #include "lanes_sse.h"
 #else
 #include "lanes_scalar.h"
+#endif
+
+#if SPT_LANES < 16
+SPTI_INLINE spt_mask spti_less_in(spt_mask mask, spt_wide a, spt_wide b) {
+    return spt_mask_and(mask, spt_less(a, b));
+}
+
+SPTI_INLINE spt_mask spti_not_less_in(spt_mask mask, spt_wide a, spt_wide b) {
+    return spt_mask_and_not(mask, spt_less(a, b));
+}
+
+SPTI_INLINE spt_mask spti_mask_not(spt_mask a) {
+    return spt_mask_and_not(spt_mask_splat(1), a);
+}
 #endif
 
 #endif

@@ -15,3 +15,15 @@ SPTI_INLINE void spti_compress(float *to, spt_wide a, unsigned keep) {
 SPTI_INLINE void spti_clear_upper(void) {
     _mm256_zeroupper();
 }
+
+SPTI_INLINE spt_mask spti_less_in(spt_mask mask, spt_wide a, spt_wide b) {
+    return _mm512_mask_cmp_ps_mask(mask, a, b, _CMP_LT_OQ);
+}
+
+SPTI_INLINE spt_mask spti_not_less_in(spt_mask mask, spt_wide a, spt_wide b) {
+    return _mm512_mask_cmp_ps_mask(mask, a, b, _CMP_NLT_UQ);
+}
+
+SPTI_INLINE spt_mask spti_mask_not(spt_mask a) {
+    return _mm512_knot(a);
+}

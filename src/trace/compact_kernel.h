@@ -13,10 +13,12 @@ typedef struct compact_move {
     uint16_t keep, to;
 } compact_move;
 
+/* How many of 16 bits are set, without a branch that nobody foresees. */
 SPTI_INLINE size_t compact_bits(unsigned bits) {
-    size_t ones = 0;
-    for (; bits != 0; bits &= bits - 1) ++ones;
-    return ones;
+    bits -= bits >> 1 & 0x5555u;
+    bits = (bits & 0x3333u) + (bits >> 2 & 0x3333u);
+    bits = (bits + (bits >> 4)) & 0x0f0fu;
+    return (bits + (bits >> 8)) & 0x1fu;
 }
 
 SPTI_INLINE size_t compact_pass(spti_chunk *chunk, const unsigned char *arrays, size_t array_count,
@@ -31,13 +33,13 @@ SPTI_INLINE size_t compact_pass(spti_chunk *chunk, const unsigned char *arrays, 
         if (keep == every && first == last) ++first; /* nothing left before: it stays in place */
         moves[last].keep = (uint16_t)keep;
         moves[last].to = (uint16_t)remain;
-        remain += keep == every ? SPT_LANES : compact_bits(keep);
+        remain += compact_bits(keep);
     }
     for (size_t i = 0; i < array_count; ++i) {
         float *const array = chunk->array[arrays[i]];
         for (size_t move = first; move < last; ++move) {
             const spt_wide a = spt_load(&array[move * SPT_LANES]);
-            if (moves[move].keep != 0) spti_compress(&array[moves[move].to], a, moves[move].keep);
+            spti_compress(&array[moves[move].to], a, moves[move].keep);
         }
         /* Lanes behind the last ray repeat the first, so that they hold ordinary numbers. */
         for (size_t pad = 0; pad < SPTI_GROUP; pad += SPT_LANES) {

@@ -29,6 +29,8 @@ typedef struct spti_leavers {
     int steep;             /* a bracket betrayed the field */
     uint16_t slots[SPT_BATCH];
     unsigned char outcomes[SPT_BATCH];
+    unsigned char indices[SPT_BATCH]; /* where they were loaded, and */
+    unsigned char rays[SPT_BATCH];    /* which rays of the window they are: set when written */
 } spti_leavers;
 
 /* Takes in a caller's field and the bound it points to; 0 where either breaks its rules. */
@@ -43,7 +45,7 @@ void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n);
 
 /* Writes the results of rays; `first` is the number of the chunk's first ray. For SPT_NONFINITE,
  * SPT_HIT and SPT_LIMIT t and f are those of the slot. */
-void spti_write_hits(const spti_call *call, const spti_chunk *chunk, const spti_leavers *leavers,
+void spti_write_hits(const spti_call *call, const spti_chunk *chunk, spti_leavers *leavers,
                      size_t first);
 
 /* Finishes the `count` bracketed rays in the last slots of the chunk. */

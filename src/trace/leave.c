@@ -27,10 +27,6 @@ static void write_word(const leave_column *column, unsigned char ray, const void
     memcpy(column->base + ray * column->stride, word, 4);
 }
 
-static size_t index_of(const spti_chunk *chunk, size_t slot) {
-    return (size_t)(int)chunk->array[SPTI_INDEX][slot];
-}
-
 /* Whether t and f of the slot are the result. */
 static int reached(unsigned char outcome) {
     return outcome != SPT_MISS && outcome != SPT_BAD_RAY;
@@ -41,43 +37,41 @@ static void write_place(const spti_call *call, const spti_chunk *chunk, const sp
     leave_column column;
     if (wanted(&call->hits.t, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
-            const size_t slot = leavers->slots[i], index = index_of(chunk, slot);
-            const float t = chunk->array[SPTI_T][slot] * chunk->unit[index];
+            const size_t slot = leavers->slots[i];
+            const float t = chunk->array[SPTI_T][slot] * chunk->unit[leavers->indices[i]];
             const float written = reached(leavers->outcomes[i]) ? t : INFINITY;
-            write_word(&column, chunk->picked[index], &written);
+            write_word(&column, leavers->rays[i], &written);
         }
     }
     if (wanted(&call->hits.residual, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
-            const size_t slot = leavers->slots[i], index = index_of(chunk, slot);
+            const size_t slot = leavers->slots[i];
             const float value = chunk->array[SPTI_VALUE][slot];
             const float written = reached(leavers->outcomes[i]) ? value : INFINITY;
-            write_word(&column, chunk->picked[index], &written);
+            write_word(&column, leavers->rays[i], &written);
         }
     }
 }
 
-static void write_end(const spti_call *call, const spti_chunk *chunk, const spti_leavers *leavers,
-                      size_t first) {
+static void write_end(const spti_call *call, const spti_leavers *leavers, size_t first) {
     leave_column column;
     if (wanted(&call->hits.outcome, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const int32_t outcome = leavers->outcomes[i];
-            write_word(&column, chunk->picked[index_of(chunk, leavers->slots[i])], &outcome);
+            write_word(&column, leavers->rays[i], &outcome);
         }
     }
     if (wanted(&call->hits.evaluations, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
-            const size_t index = index_of(chunk, leavers->slots[i]);
-            const uint32_t extra = leavers->extra != NULL ? leavers->extra[index] : 0;
+            const uint32_t extra = leavers->extra != NULL ? leavers->extra[leavers->indices[i]] : 0;
             const uint32_t evaluations = leavers->evaluations + extra;
-            write_word(&column, chunk->picked[index], &evaluations);
+            write_word(&column, leavers->rays[i], &evaluations);
         }
     }
     if (wanted(&call->hits.component, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const int32_t component = leavers->outcomes[i] == SPT_HIT ? 0 : -1;
-            write_word(&column, chunk->picked[index_of(chunk, leavers->slots[i])], &component);
+            write_word(&column, leavers->rays[i], &component);
         }
     }
 }
@@ -87,18 +81,17 @@ static void write_candidate(const spti_call *call, const spti_chunk *chunk,
     leave_column column;
     if (wanted(&call->hits.candidate_t, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
-            const size_t slot = leavers->slots[i], index = index_of(chunk, slot);
+            const size_t slot = leavers->slots[i];
             const int there = chunk->array[SPTI_CANDIDATE_RATIO][slot] < INFINITY;
-            const float t = chunk->array[SPTI_CANDIDATE_T][slot] * chunk->unit[index];
+            const float t = chunk->array[SPTI_CANDIDATE_T][slot] * chunk->unit[leavers->indices[i]];
             const float written = there ? t : INFINITY;
-            write_word(&column, chunk->picked[index], &written);
+            write_word(&column, leavers->rays[i], &written);
         }
     }
     if (wanted(&call->hits.candidate_ratio, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const size_t slot = leavers->slots[i];
-            write_word(&column, chunk->picked[index_of(chunk, slot)],
-                       &chunk->array[SPTI_CANDIDATE_RATIO][slot]);
+            write_word(&column, leavers->rays[i], &chunk->array[SPTI_CANDIDATE_RATIO][slot]);
         }
     }
 }
@@ -112,14 +105,14 @@ static void write_audit(const spti_call *call, const spti_chunk *chunk, const sp
             const int steep = leavers->steep || chunk->array[SPTI_STEEPEST][slot] > STEEP_SLOPE;
             const int inside = chunk->array[SPTI_SCALE][slot] < 0.0f;
             const uint32_t flags = (steep ? SPT_FLAG_STEEP : 0u) | (inside ? SPT_FLAG_INSIDE : 0u);
-            write_word(&column, chunk->picked[index_of(chunk, slot)], &flags);
+            write_word(&column, leavers->rays[i], &flags);
         }
     }
     if (wanted(&call->hits.fallbacks, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const size_t slot = leavers->slots[i];
             const uint32_t fallbacks = (uint32_t)chunk->array[SPTI_FALLBACKS][slot];
-            write_word(&column, chunk->picked[index_of(chunk, slot)], &fallbacks);
+            write_word(&column, leavers->rays[i], &fallbacks);
         }
     }
 }
@@ -136,10 +129,15 @@ static void count_in(const spti_call *call, const spti_chunk *chunk, const spti_
     }
 }
 
-void spti_write_hits(const spti_call *call, const spti_chunk *chunk, const spti_leavers *leavers,
+void spti_write_hits(const spti_call *call, const spti_chunk *chunk, spti_leavers *leavers,
                      size_t first) {
+    for (size_t i = 0; i < leavers->count; ++i) {
+        const int index = (int)chunk->array[SPTI_INDEX][leavers->slots[i]];
+        leavers->indices[i] = (unsigned char)index;
+        leavers->rays[i] = chunk->picked[index];
+    }
     write_place(call, chunk, leavers, first);
-    write_end(call, chunk, leavers, first);
+    write_end(call, leavers, first);
     if (call->wants & SPTI_WANT_CANDIDATE) write_candidate(call, chunk, leavers, first);
     write_audit(call, chunk, leavers, first);
     if (call->statistics != NULL) count_in(call, chunk, leavers);

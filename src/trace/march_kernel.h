@@ -65,10 +65,11 @@ SPTI_INLINE spt_wide march_tolerance(const march_constants *all, const march_ray
     return spt_max(rays->epsilon, spt_max(cone, floor));
 }
 
-/* Whether the spheres of radius a and b, `step` apart, overlap by more than rounding can feign. */
-SPTI_INLINE spt_mask march_overlap(const march_constants *all, spt_wide a, spt_wide b,
-                                   spt_wide step, spt_wide floor) {
-    return spt_less(spt_add(spt_mul(step, all->margin), floor), spt_add(a, b));
+/* Whether the spheres of radius a and b, `step` apart, overlap by more than rounding can feign, in
+ * the lanes of the mask. */
+SPTI_INLINE spt_mask march_overlap(const march_constants *all, spt_mask mask, spt_wide a,
+                                   spt_wide b, spt_wide step, spt_wide floor) {
+    return spti_less_in(mask, spt_add(spt_mul(step, all->margin), floor), spt_add(a, b));
 }
 
 /* Screen-space candidate (Keinert et al. 2014, section 3.2): the least radius over distance from
@@ -112,11 +113,12 @@ SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays 
                                    const march_state *ray, spt_mask rejected, spt_mask *missed) {
     const spt_mask inside = spt_less(rays->scale, spt_splat(0.0f));
     const spti_standing standing = {ray->radius, march_floor(all, rays, ray->t),
-                                    spt_mask_and_not(spt_mask_splat(1), inside)};
+                                    spti_mask_not(inside)};
     const spt_mask covered = spt_less_equal(spt_add(ray->t, ray->radius), rays->t_max);
     spt_mask rising = spt_mask_splat(0);
     spt_wide step = rule_step(&all->rule, &standing, ray->memory, &rising);
-    *missed = spt_mask_or(rising, spt_mask_and_not(spt_mask_splat(1), covered));
+    *missed = spti_mask_not(covered);
+    if (rule_needs_convex) *missed = spt_mask_or(*missed, rising);
     step = spt_max(spt_min(step, spt_sub(rays->t_max, ray->t)), ray->radius);
     step = spt_select(rejected, ray->radius, step);
     if (rule_pending) {
@@ -124,8 +126,8 @@ SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays 
         const spt_wide pending_radius = spt_mul(ray->pending_value, rays->scale);
         const spt_wide begins = spt_sub(ray->pending_t, pending_radius);
         const spt_mask pending = spt_less(ray->t, ray->pending_t);
-        const spt_mask beyond = spt_less(begins, spt_add(ray->t, step));
-        step = spt_select(spt_mask_and(pending, beyond), ray->radius, step);
+        const spt_mask beyond = spti_less_in(pending, begins, spt_add(ray->t, step));
+        step = spt_select(beyond, ray->radius, step);
     }
     return spt_min(spt_add(ray->t, step), rays->t_max);
 }
@@ -136,6 +138,7 @@ typedef struct march_sample {
     spti_pair pair; /* with the certified sample before */
     spt_mask legal; /* neither NaN nor -infinity */
     spt_mask rejected, moved, hit, nonfinite, bracketed;
+    spt_mask settled; /* one of the last three */
 } march_sample;
 
 /* A probe beyond the certified sphere counts only if its own sphere reaches back; what else it
@@ -148,21 +151,23 @@ SPTI_INLINE void march_judge(const march_constants *all, const march_rays *rays,
     sample->tolerance = march_tolerance(all, rays, sample->t, sample->floor);
     sample->legal = spt_less_equal(spt_splat(-FLT_MAX), sample->value);
     sample->rejected = spt_mask_splat(0);
+    spt_mask certified = spt_mask_splat(1);
     if (rule_probes) {
+        /* A probe that is inside does not reach back either: its radius is negative, and the step
+         * exceeds the other one. */
         const spt_mask over = spt_less(spt_add(ray->t, ray->radius), sample->t);
-        const spt_mask outside = spt_mask_and(sample->legal, spt_less_equal(zero, sample->radius));
         const spt_mask reaches =
-            march_overlap(all, ray->radius, sample->radius, step, sample->floor);
-        sample->rejected = spt_mask_and_not(over, spt_mask_and(outside, reaches));
+            march_overlap(all, sample->legal, ray->radius, sample->radius, step, sample->floor);
+        sample->rejected = spt_mask_and_not(over, reaches);
+        certified = spti_mask_not(sample->rejected);
     }
-    const spt_mask certified = spt_mask_and_not(spt_mask_splat(1), sample->rejected);
     const spt_mask number = spt_mask_and(certified, sample->legal);
-    const spt_mask above = spt_less(spt_sub(zero, sample->tolerance), sample->radius);
-    const spt_mask close = spt_less(sample->radius, sample->tolerance);
-    sample->nonfinite = spt_mask_and_not(certified, number);
-    sample->bracketed = spt_mask_and_not(number, above);
+    sample->bracketed = spti_not_less_in(number, spt_sub(zero, sample->tolerance), sample->radius);
+    const spt_mask reached = spti_less_in(number, sample->radius, sample->tolerance);
+    sample->nonfinite = spt_mask_and_not(certified, sample->legal);
     sample->moved = spt_mask_and_not(certified, sample->bracketed);
-    sample->hit = spt_mask_and(spt_mask_and(number, above), close);
+    sample->hit = spt_mask_and_not(reached, sample->bracketed);
+    sample->settled = spt_mask_or(reached, sample->nonfinite);
     sample->pair.step = spt_max(step, spt_splat(FLT_MIN));
     sample->pair.before = ray->radius;
     sample->pair.after = sample->radius;
@@ -190,17 +195,15 @@ SPTI_INLINE void march_move(const march_constants *all, const march_sample *samp
 SPTI_INLINE void march_leap(const march_constants *all, const march_rays *rays, unsigned wants,
                             march_sample *sample, march_state *ray, march_audit *audit) {
     const spt_wide zero = spt_splat(0.0f);
-    const spt_mask outside = spt_mask_and(sample->legal, spt_less(zero, sample->radius));
+    const spt_mask outside = spti_less_in(sample->legal, zero, sample->radius);
     const spt_wide kept = spt_select(outside, sample->t, zero);
     ray->pending_t = spt_select(sample->rejected, kept, ray->pending_t);
     ray->pending_value = spt_select(sample->rejected, sample->value, ray->pending_value);
     const spt_wide radius = spt_mul(ray->pending_value, rays->scale);
     const spt_wide floor = march_floor(all, rays, ray->pending_t);
     const spt_wide leap = spt_sub(ray->pending_t, ray->t);
-    const spt_mask ahead = spt_less(ray->t, ray->pending_t);
-    const spt_mask meets = march_overlap(all, ray->radius, radius, leap, floor);
-    const spt_mask leaps =
-        spt_mask_and_not(spt_mask_and(ahead, meets), spt_mask_or(sample->hit, sample->nonfinite));
+    const spt_mask ahead = spti_less_in(spti_mask_not(sample->settled), ray->t, ray->pending_t);
+    const spt_mask leaps = march_overlap(all, ahead, ray->radius, radius, leap, floor);
     spti_pair pair = {spt_max(leap, spt_splat(FLT_MIN)), ray->radius, radius};
     if (wants & SPTI_WANT_SLOPE) march_slope(&pair, floor, leaps, audit);
     if (!rule_blends) {
@@ -212,8 +215,10 @@ SPTI_INLINE void march_leap(const march_constants *all, const march_rays *rays, 
     ray->t = spt_select(leaps, ray->pending_t, ray->t);
     ray->value = spt_select(leaps, ray->pending_value, ray->value);
     ray->radius = spt_select(leaps, radius, ray->radius);
-    const spt_mask close = spt_less(ray->radius, march_tolerance(all, rays, ray->t, floor));
-    sample->hit = spt_mask_or(sample->hit, spt_mask_and(leaps, close));
+    const spt_mask close =
+        spti_less_in(leaps, ray->radius, march_tolerance(all, rays, ray->t, floor));
+    sample->hit = spt_mask_or(sample->hit, close);
+    sample->settled = spt_mask_or(sample->settled, close);
     if (wants & SPTI_WANT_CANDIDATE) march_candidate(rays, ray, leaps, audit);
 }
 
@@ -275,22 +280,12 @@ SPTI_INLINE void march_vector(spti_chunk *chunk, const march_constants *all, siz
     }
     if (rule_pending) march_leap(all, &rays, wants, &sample, &ray, &audit);
 
-    spt_mask missed;
-    const spt_wide next = march_propose(all, &rays, &ray, sample.rejected, &missed);
-    const spt_mask settled =
-        spt_mask_or(sample.hit, spt_mask_or(sample.nonfinite, sample.bracketed));
-    const spt_mask advances = spt_mask_and_not(spt_less(ray.t, next), missed);
-    const spt_mask goes_on = spt_mask_and_not(advances, settled);
-    march_add_fate(&fates->finished, spt_mask_and_not(spt_mask_splat(1), goes_on), shift);
+    march_add_fate(&fates->finished, sample.settled, shift);
     march_add_fate(&fates->hit, sample.hit, shift);
-    march_add_fate(&fates->missed, spt_mask_and_not(missed, settled), shift);
     march_add_fate(&fates->nonfinite, sample.nonfinite, shift);
     march_add_fate(&fates->bracketed, sample.bracketed, shift);
 
     march_store_state(chunk, at, &ray);
-    march_store_points(chunk, at, next);
-    /* A bracket is closed between t and the probe that crossed. */
-    march_store(chunk, SPTI_PROBE, at, spt_select(sample.bracketed, sample.t, next));
     if (wants & SPTI_WANT_SLOPE) march_store(chunk, SPTI_STEEPEST, at, audit.steepest);
     if (wants & SPTI_WANT_FALLBACKS) {
         const spt_wide before = march_load(chunk, SPTI_FALLBACKS, at);
@@ -301,6 +296,31 @@ SPTI_INLINE void march_vector(spti_chunk *chunk, const march_constants *all, siz
         march_store(chunk, SPTI_CANDIDATE_T, at, audit.candidate_t);
         march_store(chunk, SPTI_CANDIDATE_RATIO, at, audit.candidate_ratio);
     }
+}
+
+/* The second half of a pass, in a loop of its own: one chain of dependent operations from sample to
+ * next point is longer than what a processor looks ahead. What the first half found out it sees by
+ * the probe: a rejected one is still beyond the certified sphere. */
+SPTI_INLINE void march_on(spti_chunk *chunk, const march_constants *all, size_t at, unsigned shift,
+                          spti_fates *fates) {
+    const spt_wide zero = spt_splat(0.0f);
+    const march_rays rays = {march_load(chunk, SPTI_SCALE, at), march_load(chunk, SPTI_T_MAX, at),
+                             zero, zero, march_load(chunk, SPTI_FLOOR_AT_0, at)};
+    const spt_wide probe = march_load(chunk, SPTI_PROBE, at);
+    const spt_wide sampled = spt_mul(spt_load(&chunk->distance[at]), rays.scale);
+    march_state ray;
+    march_load_state(chunk, at, rays.scale, &ray);
+    const spt_mask rejected =
+        rule_probes ? spt_less(spt_add(ray.t, ray.radius), probe) : spt_mask_splat(0);
+    spt_mask missed;
+    const spt_wide next = march_propose(all, &rays, &ray, rejected, &missed);
+    march_add_fate(&fates->missed, missed, shift);
+    march_add_fate(&fates->finished, spt_mask_or(missed, spti_mask_not(spt_less(ray.t, next))),
+                   shift);
+    march_store_points(chunk, at, next);
+    /* A bracket is closed between t and the probe that crossed. */
+    const spt_mask crossed = spti_less_in(spti_mask_not(rejected), sampled, zero);
+    march_store(chunk, SPTI_PROBE, at, spt_select(crossed, probe, next));
 }
 
 /* One pass; see spti_march_fn. wants is a constant of SPTI_WANT_*. */
@@ -315,11 +335,20 @@ SPTI_INLINE int march_pass(spti_chunk *chunk, const spti_march *march, size_t co
     unsigned any = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         spti_fates fates = {0, 0, 0, 0, 0, 0};
-        const size_t start = group * SPTI_GROUP, left = count - start;
         /* The whole group: its padding goes where the ray goes that it repeats. */
         for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
-            march_vector(chunk, &all, start + shift, shift, wants, &fates);
+            march_vector(chunk, &all, group * SPTI_GROUP + shift, shift, wants, &fates);
         }
+        chunk->fates[group] = fates;
+    }
+    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
+        spti_fates fates = chunk->fates[group];
+        const unsigned settled = fates.finished;
+        const size_t left = count - group * SPTI_GROUP;
+        for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
+            march_on(chunk, &all, group * SPTI_GROUP + shift, shift, &fates);
+        }
+        fates.missed = (uint16_t)(fates.missed & ~settled);
         /* Lanes behind the last ray hold nothing. */
         if (left < SPTI_GROUP) fates.finished &= (uint16_t)((1u << left) - 1u);
         chunk->fates[group] = fates;

@@ -76,6 +76,9 @@ static stress_case scene(int index, uint32_t *selection) {
     return what;
 }
 
+/* ---- The floating-point environment is left alone ------------------------------------------- */
+
+#ifdef HAVE_MXCSR
 /* The results of every scene in the ways of a selection, in order; how many. */
 static int all_results(stress_way *way, spt_hit results[scene_count]) {
     int count = 0;
@@ -88,9 +91,6 @@ static int all_results(stress_way *way, spt_hit results[scene_count]) {
     return count;
 }
 
-/* ---- The floating-point environment is left alone ------------------------------------------- */
-
-#ifdef HAVE_MXCSR
 enum { control_bits = 0xffc0, flush_bits = 0x8040, invalid_masked = 0x80, division_masked = 0x200 };
 enum { invalid_seen = 0x01, division_seen = 0x04 };
 
