@@ -208,10 +208,9 @@ static void parity_absent_sinks(void) {
         for (unsigned wanted = 0; wanted < 512; ++wanted) {
             const spt_rays view = spt_rays_of(rays);
             spt_hits hits = spt_hits_of(found);
-            spt_sink *const sinks[] = {
-                &hits.t,         &hits.residual,    &hits.outcome,         &hits.evaluations,
-                &hits.flags,     &hits.component,   &hits.candidate_t,     &hits.candidate_ratio,
-                &hits.fallbacks};
+            spt_sink *const sinks[] = {&hits.t,           &hits.residual,        &hits.outcome,
+                                       &hits.evaluations, &hits.flags,           &hits.component,
+                                       &hits.candidate_t, &hits.candidate_ratio, &hits.fallbacks};
             memset(found, 0x5a, sizeof found);
             for (int sink = 0; sink < 9; ++sink) {
                 if (!(wanted >> sink & 1)) sinks[sink]->first = NULL;
