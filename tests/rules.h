@@ -25,6 +25,11 @@ enum { rule_count = sizeof rules / sizeof rules[0] };
 static const uint32_t widths[] = {1, 4, 8, 16};
 enum { width_count = 4 };
 
+/* The width that runs when max_lanes is `lanes`, for callbacks that are built by width. */
+static inline int width_run(uint32_t lanes) {
+    return (int)lanes < spt_lanes() ? (int)lanes : spt_lanes();
+}
+
 /* Whether a rule may trace a field of these flags. */
 static inline int rule_allowed(const rule *one, uint32_t field_flags) {
     return one->method() != spt_convex() || (field_flags & SPT_FIELD_CONVEX) != 0;

@@ -45,7 +45,7 @@ static const golden *pinned_for(const char *scene_name, const char *rule_name) {
 }
 
 static void compare(const scene *shown, const rule *one, uint32_t lanes, float pixel_radius) {
-    const spt_field field = scene_field(shown, (int)lanes);
+    const spt_field field = scene_field(shown, width_run(lanes));
     const spt_rays in = spt_rays_of(rays);
     const spt_hits out = spt_hits_of(hits);
     spt_settings settings = spt_settings_default();

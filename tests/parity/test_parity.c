@@ -136,7 +136,7 @@ static void compare_all(const scene *shown, const rule *one, float pixel_radius)
         const size_t lanes = widths[width];
         const size_t counts[] = {0, 1, lanes - 1, lanes, lanes + 1, 2 * lanes + 1, most};
         settings = settings_of(one, pixel_radius, widths[width]);
-        field = scene_field(shown, (int)lanes);
+        field = scene_field(shown, width_run(widths[width]));
         for (int layout = 0; layout < layout_count; ++layout) {
             for (size_t i = 0; i < sizeof counts / sizeof counts[0]; ++i) {
                 memset(found, 0xa5, sizeof found);
