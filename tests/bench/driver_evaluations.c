@@ -52,24 +52,23 @@ static void count_rule(FILE *file, const evaluations_picture *picture, int stop,
     const spt_rays columns = spt_rays_of(picture->rays);
     const spt_hits sinks = bench_hits_of(picture->hits);
     spt_statistics statistics = spt_statistics_default();
-    size_t lost = 0;
+    unsigned long lost = 0, late = 0;
     if (spt_trace(&field, &settings, picture->count, &columns, &sinks, &statistics) != SPT_OK) {
         fprintf(stderr, "%s: the trace was refused\n", picture->shown->name);
         exit(1);
     }
     for (size_t i = 0; i < picture->count; ++i) {
         lost += truth_lost(picture->last_t[i], &picture->hits[i]) != 0;
+        late += truth_late(picture->last_t[i], &picture->hits[i]) != 0;
     }
     const double rays = (double)statistics.rays;
     const double each = (double)statistics.evaluations / rays;
     const unsigned long hits = (unsigned long)statistics.outcomes[SPT_HIT];
     const unsigned long limits = (unsigned long)statistics.outcomes[SPT_LIMIT];
-    fprintf(file, "%s,%s,%s,%.4f,%.4f,%lu,%lu,%lu\n", picture->shown->name, stops[stop],
-            rules[rule], each, (double)statistics.fallbacks / rays, hits, limits,
-            (unsigned long)lost);
-    printf("%-15s%-12s%-13s%12.2f%12.3f%9lu%8lu%7lu\n", picture->shown->name, stops[stop],
-           rules[rule], each, (double)statistics.fallbacks / rays, hits, limits,
-           (unsigned long)lost);
+    fprintf(file, "%s,%s,%s,%.4f,%.4f,%lu,%lu,%lu,%lu\n", picture->shown->name, stops[stop],
+            rules[rule], each, (double)statistics.fallbacks / rays, hits, limits, lost, late);
+    printf("%-15s%-12s%-13s%12.2f%12.3f%9lu%8lu%7lu%7lu\n", picture->shown->name, stops[stop],
+           rules[rule], each, (double)statistics.fallbacks / rays, hits, limits, lost, late);
     sum->logarithms[stop][rule] += log(each);
     sum->scenes[stop][rule] += 1;
 }
@@ -126,12 +125,12 @@ static void print_means(const evaluations_sum *sum) {
 void bench_evaluations(const bench_options *options) {
     FILE *file = bench_open(options, "evaluations.csv",
                             "scene,stop,method,evaluations_per_ray,fallbacks_per_ray,hits,limits,"
-                            "lost");
+                            "lost,late");
     evaluations_sum sum;
     memset(&sum, 0, sizeof sum);
-    printf("\nEvaluations of the step rules, %dx%d rays:\n%-15s%-12s%-13s%12s%12s%9s%8s%7s\n",
+    printf("\nEvaluations of the step rules, %dx%d rays:\n%-15s%-12s%-13s%12s%12s%9s%8s%7s%7s\n",
            options->small_width, options->small_height, "scene", "stop", "method", "evals/ray",
-           "fallbacks", "hits", "limits", "lost");
+           "fallbacks", "hits", "limits", "lost", "late");
     for (int i = 0; i < KINDS; ++i) count_scene(options, file, kinds[i], &sum);
     print_means(&sum);
     fclose(file);

@@ -54,6 +54,9 @@ double truth_last_t(const scene *shown, const spt_settings *settings, const spt_
 }
 
 int truth_lost(double last_t, const bench_hit *hit) {
-    if (!(last_t <= DBL_MAX) || hit->outcome == SPT_LIMIT) return 0;
-    return hit->outcome != SPT_HIT || (double)hit->t > last_t;
+    return last_t <= DBL_MAX && hit->outcome != SPT_LIMIT && hit->outcome != SPT_HIT;
+}
+
+int truth_late(double last_t, const bench_hit *hit) {
+    return hit->outcome == SPT_HIT && (double)hit->t > last_t;
 }

@@ -15,7 +15,10 @@
  * the basic rule meets, and of other rules where they stop deeper than that. */
 double truth_last_t(const scene *shown, const spt_settings *settings, const spt_ray *ray);
 
-/* Whether a result overlooks that. SPT_LIMIT is no answer, so not a wrong one. */
+/* Whether a result overlooks that altogether. SPT_LIMIT is no answer, so not a wrong one. */
 int truth_lost(double last_t, const bench_hit *hit);
+
+/* Whether it is a hit, but behind that. */
+int truth_late(double last_t, const bench_hit *hit);
 
 #endif
