@@ -6,9 +6,9 @@
 # make bench      measure; writes build/bench/*.csv
 # make install    PREFIX=/usr/local DESTDIR= LIBDIR= INCLUDEDIR=
 #
-# Hooks: CC CXX AR, CFLAGS and LDFLAGS (added last), B (build folder), RUN (a wrapper around the
-# programs that are run), EXE (their ending). The flags in LAW are not to be overridden: equal bits
-# at every width and compiler depend on them.
+# Hooks: CC CXX AR, CFLAGS and LDFLAGS (extra flags), B (build folder), RUN (a wrapper around the
+# programs that are run), EXE (their ending). What is in KEEP comes after CFLAGS and cannot be
+# overridden: equal bits at every width and compiler depend on it.
 
 B ?= build
 AR ?= ar
@@ -22,7 +22,8 @@ LDFLAGS ?=
 
 WARN = -pedantic-errors -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla \
        -Wdouble-promotion -Wconversion -Werror
-LAW = -std=c99 $(WARN) -ffp-contract=off -fno-math-errno -fexceptions -fvisibility=hidden
+LAW = -std=c99 $(WARN) -fvisibility=hidden
+KEEP = -ffp-contract=off -fno-math-errno -fexceptions
 COMPILE = $(CC) $(LAW) -O3 -MMD -Iinclude
 # V=1 shows the commands.
 ifndef V
@@ -67,13 +68,13 @@ OBJECTS := $(PLAIN:src/%.c=$B/src/%.o) $(ISAS:%=$B/src/backend/chunk_%.o) \
 STATIC := $B/libspheretrace.a
 SHARED := $B/libspheretrace.so.$(VERSION)
 
-.PHONY: all check demo bench install uninstall clean
+.PHONY: all check need_cxx demo bench install uninstall clean
 .DELETE_ON_ERROR:
 .SUFFIXES:
-all: $(STATIC) $(SHARED) $B/spheretrace.pc
+all: $(STATIC) $(SHARED)
 
 # A change of compiler or flags rebuilds.
-SETUP := $(CC) $(LAW) $(CFLAGS) $(LDFLAGS) $(ISAS)
+SETUP := $(CC) $(LAW) $(CFLAGS) $(KEEP) $(LDFLAGS) $(ISAS)
 $B/setup: $(if $(filter-out $(SETUP),$(shell cat $B/setup 2>/dev/null))$(filter-out \
             $(shell cat $B/setup 2>/dev/null),$(SETUP)),FORCE)
 	@mkdir -p $(@D) && printf '%s\n' '$(SETUP)' > $@
@@ -82,7 +83,7 @@ FORCE:
 $(PLAIN:src/%.c=$B/src/%.o): $B/src/%.o: src/%.c $B/setup
 	@mkdir -p $(@D)
 	$(call SAY,$@)
-	$(Q)$(COMPILE) -fPIC $(HAVE) $(CFLAGS) -c $< -o $@
+	$(Q)$(COMPILE) -fPIC $(HAVE) $(CFLAGS) $(KEEP) -c $< -o $@
 
 # $(1) instruction set
 define chunk_object
@@ -90,7 +91,7 @@ $B/src/backend/chunk_$(1).o: src/backend/chunk.c $B/setup
 	@mkdir -p $$(@D)
 	$$(call SAY,$$@)
 	$$(Q)$$(COMPILE) -fPIC $$(HAVE) $$(flags_$(1)) -DSPTI_PREPARE=spti_prepare_$(1) \
-	  -DSPTI_COMPACT=spti_compact_$(1) $$(CFLAGS) -c $$< -o $$@
+	  -DSPTI_COMPACT=spti_compact_$(1) $$(CFLAGS) $$(KEEP) -c $$< -o $$@
 endef
 $(foreach isa,$(ISAS),$(eval $(call chunk_object,$(isa))))
 
@@ -100,7 +101,7 @@ $B/src/methods/$(1).o: src/backend/method.c $B/setup
 	@mkdir -p $$(@D)
 	$$(call SAY,$$@)
 	$$(Q)$$(COMPILE) -fPIC $$(HAVE) -DSPTI_METHOD=$(1) -DSPTI_RULE='"../methods/$(1).h"' $$(CFLAGS) \
-	  -c $$< -o $$@
+	  $$(KEEP) -c $$< -o $$@
 endef
 $(foreach method,$(METHODS),$(eval $(call method_object,$(method))))
 
@@ -110,7 +111,7 @@ $B/src/methods/$(1)_$(2).o: src/backend/march.c $B/setup
 	@mkdir -p $$(@D)
 	$$(call SAY,$$@)
 	$$(Q)$$(COMPILE) -fPIC $$(HAVE) $$(flags_$(2)) -DSPTI_RULE='"../methods/$(1).h"' \
-	  -DSPTI_MARCH=spti_march_$(1)_$(2) $$(CFLAGS) -c $$< -o $$@
+	  -DSPTI_MARCH=spti_march_$(1)_$(2) $$(CFLAGS) $$(KEEP) -c $$< -o $$@
 endef
 $(foreach method,$(METHODS),$(foreach isa,$(MARCH_ISAS),\
   $(eval $(call march_object,$(method),$(isa)))))
@@ -131,11 +132,6 @@ $(SHARED): $(OBJECTS) $B/exports.map
 	@ln -sf $(@F) $B/libspheretrace.so.$(MAJOR)
 	@ln -sf libspheretrace.so.$(MAJOR) $B/libspheretrace.so
 
-$B/spheretrace.pc: src/package/spheretrace.pc.in Makefile include/spheretrace/base.h
-	@mkdir -p $(@D)
-	@sed -e 's|@PREFIX@|$(PREFIX)|; s|@LIBDIR@|$(LIBDIR)|; s|@INCLUDEDIR@|$(INCLUDEDIR)|' \
-	  -e 's|@VERSION@|$(VERSION)|' $< > $@
-
 # ---- Scenes and examples ------------------------------------------------------------------------
 
 # The scenes show callers what to do: one source, compiled for each instruction set.
@@ -155,7 +151,7 @@ define scene_object
 $B/examples/scenes/scenes_lanes_$(1).o: examples/scenes/scenes_lanes.c $B/setup
 	@mkdir -p $$(@D)
 	$$(call SAY,$$@)
-	$$(Q)$$(COMPILE) -DSCENE_LANES=$(1) $$(scene_flags_$(1)) $$(CFLAGS) -c $$< -o $$@
+	$$(Q)$$(COMPILE) -DSCENE_LANES=$(1) $$(scene_flags_$(1)) $$(CFLAGS) $$(KEEP) -c $$< -o $$@
 endef
 $(foreach lanes,$(SCENE_LANES),$(eval $(call scene_object,$(lanes))))
 
@@ -166,7 +162,7 @@ $(SCENES): $(SCENE_PLAIN:%.c=$B/%.o) $(SCENE_LANES:%=$B/examples/scenes/scenes_l
 $B/examples/scenes/%.o: examples/scenes/%.c $B/setup
 	@mkdir -p $(@D)
 	$(call SAY,$@)
-	$(Q)$(COMPILE) $(SCENE_MISSING) $(CFLAGS) -c $< -o $@
+	$(Q)$(COMPILE) $(SCENE_MISSING) $(CFLAGS) $(KEEP) -c $< -o $@
 
 # Programs of one idea each; what they share is linked as far as they need it.
 PROGRAMS := one_ray batch_callback methods_compared render
@@ -189,7 +185,7 @@ endif
 $B/examples/%.o: examples/%.c $B/setup
 	@mkdir -p $(@D)
 	$(call SAY,$@)
-	$(Q)$(COMPILE) $(OIIO_FLAGS) $(CFLAGS) -c $< -o $@
+	$(Q)$(COMPILE) $(OIIO_FLAGS) $(CFLAGS) $(KEEP) -c $< -o $@
 
 $B/examples/shared.a: $(SHARED_SOURCES:%.c=$B/%.o) $(OIIO_OBJECT)
 	@rm -f $@
@@ -205,14 +201,14 @@ demo: $B/render$(EXE)
 # ---- Tests --------------------------------------------------------------------------------------
 
 TEST_SOURCES := tests/main.c \
-  $(wildcard $(foreach folder,unit parity oracle stress golden,tests/$(folder)/*.c))
+  $(wildcard $(foreach folder,unit parity oracle stress golden fuzz,tests/$(folder)/*.c))
 HEADERS := $(wildcard include/spheretrace/*.h)
 CXX_HERE := $(shell command -v $(firstword $(CXX)) 2>/dev/null)
 
 $B/tests/%.o: tests/%.c $B/setup
 	@mkdir -p $(@D)
 	$(call SAY,$@)
-	$(Q)$(OWN) $(CFLAGS) -c $< -o $@
+	$(Q)$(OWN) $(CFLAGS) $(KEEP) -c $< -o $@
 
 $B/check$(EXE): $(TEST_SOURCES:%.c=$B/%.o) $B/examples/shared.a $(SCENES) $(STATIC)
 	$(call SAY,$@)
@@ -232,7 +228,11 @@ $B/exceptions$(EXE): tests/stress/test_exceptions.cc $(STATIC)
 	$(call SAY,$@)
 	$(Q)$(CXX) -std=c++11 -O2 -Wall -Wextra -Werror -Iinclude $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 
-check: $B/check$(EXE) $B/headers.ok $(if $(CXX_HERE),$B/exceptions$(EXE)) \
+# Without a C++ compiler the headers are not tried as C++ and exceptions do not pass through.
+need_cxx:
+	@[ -n "$(CXX_HERE)" ] || { echo 'skipped: no C++ compiler'; [ "$$SPT_REQUIRE" != 1 ]; }
+
+check: need_cxx $B/check$(EXE) $B/headers.ok $(if $(CXX_HERE),$B/exceptions$(EXE)) \
        $(patsubst %,$B/%$(EXE),one_ray batch_callback methods_compared)
 	@for program in one_ray batch_callback methods_compared; do \
 	  $(RUN) $B/$$program$(EXE) >$B/$$program.log || { cat $B/$$program.log; exit 1; }; \
@@ -253,20 +253,20 @@ NATIVE ?= -march=native
 $B/tests/bench/scalar_loop.o: tests/bench/scalar_loop.c $B/setup
 	@mkdir -p $(@D)
 	$(call SAY,$@)
-	$(Q)$(OWN) $(NATIVE) $(CFLAGS) -c $< -o $@
+	$(Q)$(OWN) $(NATIVE) $(CFLAGS) $(KEEP) -c $< -o $@
 
 define peak_object
 $B/tests/bench/peak_lanes_$(1).o: tests/bench/peak_lanes.c $B/setup
 	@mkdir -p $$(@D)
 	$$(call SAY,$$@)
-	$$(Q)$$(OWN) -DSPT_LANES=$(1) $$(scene_flags_$(1)) $$(CFLAGS) -c $$< -o $$@
+	$$(Q)$$(OWN) -DSPT_LANES=$(1) $$(scene_flags_$(1)) $$(CFLAGS) $$(KEEP) -c $$< -o $$@
 endef
 $(foreach lanes,$(SCENE_LANES),$(eval $(call peak_object,$(lanes))))
 
 $(BENCH_PLAIN:%.c=$B/%.o): $B/%.o: %.c $B/setup
 	@mkdir -p $(@D)
 	$(call SAY,$@)
-	$(Q)$(OWN) $(SCENE_MISSING) $(CFLAGS) -c $< -o $@
+	$(Q)$(OWN) $(SCENE_MISSING) $(CFLAGS) $(KEEP) -c $< -o $@
 
 $B/driver_bench$(EXE): $(BENCH_OBJECTS) $(SCENES) $(STATIC)
 	$(call SAY,$@)

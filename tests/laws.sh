@@ -50,6 +50,31 @@ writable() { size -A "$archive" |
   awk '$1 ~ /^\.(data|bss|tdata|tbss)/ && $1 !~ /^\.data\.rel\.ro/ && $2 > 0 {print $1, $2}'; }
 none "the library has no writable data" writable
 
+# Loops are bounded by an integer or a list: none runs until something happens.
+unbounded() { grep -nwE 'while|do|goto' src/*/*.[ch] | grep -vE ':[0-9]+: *(\*|/\*|//)'; }
+none "all loops in src are for loops" unbounded
+
+# A level of recursion stays within 32 KiB: no frame is larger.
+frames() {
+  local file
+  for file in src/trace/*.c src/bound/*.c src/base/*.c; do
+    cc -std=c99 -O3 -ffp-contract=off -fno-math-errno -DSPTI_HAVE_SSE2 -Iinclude -Wvla \
+      -Wframe-larger-than=32768 -c "$file" -o "$build/frame.o"
+  done
+}
+none "no stack frame above 32 KiB" frames
+
+# C++ users may have fast mathematics on: the headers hold no guard against it.
+fast() {
+  local header
+  command -v g++ >/dev/null || return
+  for header in include/spheretrace/*.h; do
+    printf '#include "%s"\n' "$header" >"$build/alone.cc"
+    g++ -std=c++11 -ffast-math -Wall -Wextra -Werror -I. -Iinclude -fsyntax-only "$build/alone.cc"
+  done
+}
+none "headers compile as C++ with -ffast-math" fast
+
 # Wide instructions only in the objects built for them.
 wide() {
   find "$build/src" -name '*.o' ! -name '*avx*' | while read -r object; do

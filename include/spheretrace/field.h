@@ -63,7 +63,7 @@ typedef struct spt_field {
                                    * 2^100. The library divides by it */
     uint32_t flags;               /* SPT_FIELD_CONVEX or 0 */
     const spt_bound *bound;       /* a convex volume that contains the whole surface, or NULL. Rays
-                                   * are traced only inside it */
+                                   * are traced only inside it; coordinates below 1e19 */
     const char *glsl;             /* body of float NAME(vec3 p), the same field for a shader, or
                                    * NULL. Not read when tracing */
     const char *glsl_prelude;     /* functions which that body needs, or NULL */
@@ -87,8 +87,10 @@ typedef struct spt_field_cost {
 /* What one evaluation of a field costs, by the caller's clock, at points spread over its bound
  * (over [-1, 1]^3 without one). A callback that vectorised costs a fraction of its scalar loop; a
  * large ratio of the two figures means a heavy fixed cost a call.
- * Takes about 20 ms. Returns SPT_BAD_ARGUMENT for a bad field or a NULL pointer, SPT_UNSUPPORTED
- * for a clock that does not advance; cost is written only with SPT_OK. */
+ * Takes about 20 ms with a clock of microseconds, and as many times 16 ticks of a coarser one; it
+ * gives up after 2^26 evaluations a round. Returns SPT_BAD_ARGUMENT for a bad field or a NULL
+ * pointer, SPT_UNSUPPORTED for a clock that stands still or is too coarse; cost is written only with
+ * SPT_OK. */
 SPT_API spt_status spt_field_measure(const spt_field *field, spt_clock_fn *clock, void *clock_user,
                                      spt_field_cost *cost);
 

@@ -15,7 +15,7 @@
  *
  * PROMISES. The results are the same bits for every width, thread count, order and number of rays
  * in a call, and for every compiler, as long as the callback's are. No memory is allocated, nothing
- * global is written, the floating-point environment is left alone. Functions may be called from any
+ * global is written, the control bits of the floating-point environment are left alone. Functions may be called from any
  * number of threads at once, and from inside callbacks; a level of recursion takes at most 32 KiB
  * of stack besides the callback's own. */
 #ifndef SPHERETRACE_TRACE_H
@@ -49,7 +49,7 @@ typedef struct spt_ray {
     float origin[3], t_min, direction[3], t_max;
 } spt_ray;
 
-/* The view of an array of spt_ray. */
+/* The view of an array of spt_ray; not NULL. */
 static inline spt_rays spt_rays_of(const spt_ray *array) {
     spt_rays rays;
     spt_column absent;
@@ -78,7 +78,8 @@ static inline spt_rays spt_rays_of(const spt_ray *array) {
  *                  t                          residual                       evaluations
  *   SPT_MISS       +infinity                  +infinity                      0 .. budget
  *   SPT_HIT        t_min <= t <= t_max        f(t), |f| / lipschitz <        1 .. budget
- *                                             tolerance(t)
+ *                                             tolerance(t) (but see
+ *                                             SPT_FLAG_STEEP, SPT_STOP_INSIDE)
  *   SPT_LIMIT      the last t up to which     f there; +infinity where       budget
  *                  the ray is known free      nothing was evaluated
  *   SPT_NONFINITE  where f was NaN or -inf    that value, the only NaN       1 .. budget
@@ -101,9 +102,10 @@ enum {
     /* The field changed faster than its Lipschitz constant between two samples, so it is no
      * distance bound and surfaces may have been stepped over. A hit with this flag is a root of f
      * or a jump of f through zero, not certainly the first; on a jump |f| may exceed the
-     * tolerance. Exact fields never set it. */
+     * tolerance, up to infinity. Exact fields never set it. */
     SPT_FLAG_STEEP = 1u << 0,
-    /* The first sample was inside (f < 0): the ray looked for the way out. */
+    /* The first sample was inside (f < 0): the ray looked for the way out. With SPT_SKIP_START the
+     * first sample is the first that is not skipped. */
     SPT_FLAG_INSIDE = 1u << 1
 };
 
@@ -119,9 +121,9 @@ enum {
  *   candidate_t      float } the sample that came closest to the surface as seen from the eye
  *   candidate_ratio  float } (Keinert 3.2): the least |f| / lipschitz / max(path + t |direction|, epsilon)
  *                    over the samples up to which the ray is free, the earlier of equals. Over 2
- *                    pixel_radius it is how many pixels the ray passed from the silhouette.
- *                    +infinity where there was no finite sample
- *   fallbacks        uint32_t, over-relaxed probes that were rejected */
+ *                    pixel_radius it is how many pixels the ray passed from the silhouette. Both
+ *                    are +infinity where there was no finite sample
+ *   fallbacks        uint32_t, over-relaxed probes that were rejected, counted to 2^24 */
 typedef struct spt_hits {
     spt_sink t, residual, outcome, evaluations, flags, component, candidate_t, candidate_ratio,
         fallbacks;
@@ -137,7 +139,7 @@ typedef struct spt_hit {
     uint32_t fallbacks;
 } spt_hit;
 
-/* The view of an array of spt_hit, every result wanted. Set the first of a sink to NULL to leave
+/* The view of an array of spt_hit, not NULL, every result wanted. Set the first of a sink to NULL to leave
  * its work out. */
 static inline spt_hits spt_hits_of(spt_hit *array) {
     spt_hits hits;
@@ -197,10 +199,10 @@ SPT_API const char *spt_method_name(const spt_method *method);
 enum {
     /* The ray starts on a surface that is not meant (a secondary ray): steps of one tolerance
      * until |f| / lipschitz reaches the tolerance, and only then starts to trace. What lies in the
-     * skipped stretch is not seen. */
+     * skipped stretch is not seen. Each step is an evaluation. */
     SPT_SKIP_START = 1u << 0,
-    /* A ray whose first sample is inside ends there at once: SPT_HIT at t_min with
-     * SPT_FLAG_INSIDE, after one evaluation. Otherwise it is traced to the way out. */
+    /* A ray whose first sample is inside ends there at once: SPT_HIT with SPT_FLAG_INSIDE.
+     * Otherwise it is traced to the way out. */
     SPT_STOP_INSIDE = 1u << 1
 };
 
@@ -208,7 +210,7 @@ typedef struct spt_settings {
     size_t struct_size;       /* set by spt_settings_default() */
     const spt_method *method; /* spt_basic() .. spt_convex() */
     uint32_t budget;          /* most evaluations a ray may take, rejected probes included; 0 is
-                               * legal and gives SPT_LIMIT at t_min. Default 128 */
+                               * legal and gives SPT_LIMIT at the start. Default 128 */
     float epsilon;            /* absolute tolerance, world length, > 0. Default 1e-4 */
     float pixel_radius;       /* half a pixel at distance 1, >= 0; 0: no pixel cone. For a pinhole
                                * camera tan(fov / 2) / pixels, the lesser of both axes. Default 0 */

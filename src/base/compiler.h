@@ -25,7 +25,8 @@ static inline unsigned spti_lowest_bit(unsigned bits) {
     return (unsigned)__builtin_ctz(bits);
 #else
     unsigned place = 0;
-    while (!(bits >> place & 1)) ++place;
+    for (; !(bits >> place & 1); ++place) {
+    }
     return place;
 #endif
 }

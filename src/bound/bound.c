@@ -29,6 +29,8 @@ spt_status spt_bound_extent(const spt_bound *bound, float low[3], float high[3])
         const int sphere = copy.kind == SPT_BOUND_SPHERE;
         low[axis] = sphere ? copy.center[axis] - copy.radius : copy.low[axis];
         high[axis] = sphere ? copy.center[axis] + copy.radius : copy.high[axis];
+        low[axis] = spt_max(low[axis], -FLT_MAX);
+        high[axis] = spt_min(high[axis], FLT_MAX);
     }
     return SPT_OK;
 }
@@ -41,7 +43,7 @@ float spti_bound_size(const spt_bound *bound) {
                                   : spt_max(fabsf(bound->low[axis]), fabsf(bound->high[axis]));
         size = spt_max(size, largest);
     }
-    return size;
+    return spt_min(size, FLT_MAX);
 }
 
 spt_status spt_bound_interval(const spt_bound *bound, const float origin[3],
@@ -61,8 +63,7 @@ spt_status spt_bound_interval(const spt_bound *bound, const float origin[3],
     if (!(largest >= FLT_MIN) || !(t_min >= 0.0f) || !spti_finite(t_min) || !(t_max <= INFINITY)) {
         return SPT_BAD_ARGUMENT;
     }
-    /* In the ray's own unit, as in a trace: no length of the direction over- or underflows. */
-    const float power = spti_power_of_two(spt_min(largest, 0x1p126f)), unit = 1.0f / power;
+    const float power = interval_power(largest), unit = 1.0f / power;
     for (int axis = 0; axis < 3; ++axis) {
         ray.origin[axis] = origin[axis];
         ray.direction[axis] = direction[axis] * unit;

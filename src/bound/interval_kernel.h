@@ -7,6 +7,7 @@
 
 #include <spheretrace/bound.h>
 
+#include <float.h>
 #include <math.h>
 
 #include "../base/arguments.h"
@@ -19,10 +20,21 @@ typedef struct interval_ray {
     spt_wide reach;  /* largest magnitude in the origin */
 } interval_ray;
 
-/* The rounding floor at t, in t. */
-SPTI_INLINE spt_wide interval_slack(const interval_ray *ray, spt_wide size, spt_wide t) {
-    const spt_wide at_0 = spt_div(spt_add(ray->reach, size), ray->length);
-    return spt_mul(spt_splat(SPTI_FLOOR), spt_add(at_0, spt_abs(t)));
+/* t moved by the part of the rounding floor that grows with it; infinities stay. */
+SPTI_INLINE spt_wide interval_earlier(spt_wide t) {
+    const spt_wide less = spt_splat(1.0f - SPTI_FLOOR), more = spt_splat(1.0f + SPTI_FLOOR);
+    return spt_mul(t, spt_select(spt_less(t, spt_splat(0.0f)), more, less));
+}
+
+SPTI_INLINE spt_wide interval_later(spt_wide t) {
+    const spt_wide less = spt_splat(1.0f - SPTI_FLOOR), more = spt_splat(1.0f + SPTI_FLOOR);
+    return spt_mul(t, spt_select(spt_less(t, spt_splat(0.0f)), less, more));
+}
+
+/* The power of two in whose units a direction is traced, from its largest component: then no length
+ * over- or underflows. 2^127 has no normal inverse, so at most 2^126. */
+SPTI_INLINE spt_wide interval_power(spt_wide largest) {
+    return spti_power_of_two(spt_min(spt_max(largest, spt_splat(FLT_MIN)), spt_splat(0x1p126f)));
 }
 
 /* A magnitude with the sign of another number. */
@@ -33,14 +45,17 @@ SPTI_INLINE spt_wide interval_signed(spt_wide magnitude, spt_wide sign) {
 
 /* Slabs, by division: the usual multiplication by 1 / direction makes 0 * infinity of a ray that
  * lies in a face, and loses half or all of such rays. */
-SPTI_INLINE void interval_of_box(const spt_bound *bound, const interval_ray *ray, spt_wide *entry,
-                                 spt_wide *exit) {
+SPTI_INLINE void interval_of_box(const spt_bound *bound, const interval_ray *ray, spt_wide size,
+                                 spt_wide *entry, spt_wide *exit) {
     const spt_wide infinity = spt_splat(INFINITY);
     const spt_wide minus_infinity = spt_splat(-INFINITY);
     *entry = minus_infinity;
     *exit = infinity;
     for (int axis = 0; axis < 3; ++axis) {
-        const spt_wide low = spt_splat(bound->low[axis]), high = spt_splat(bound->high[axis]);
+        /* Widened a face at a time, so that a ray that touches an edge is not lost to rounding. */
+        const spt_wide margin = spt_mul(spt_splat(SPTI_FLOOR), spt_add(ray->reach, size));
+        const spt_wide low = spt_sub(spt_splat(bound->low[axis]), margin);
+        const spt_wide high = spt_add(spt_splat(bound->high[axis]), margin);
         const spt_wide origin = ray->origin[axis], direction = ray->direction[axis];
         const spt_wide magnitude = spt_max(spt_abs(direction), spt_splat(FLT_MIN));
         const spt_mask parallel = spt_less(spt_abs(direction), spt_splat(FLT_MIN));
@@ -51,14 +66,16 @@ SPTI_INLINE void interval_of_box(const spt_bound *bound, const interval_ray *ray
             spt_mask_and(spt_less_equal(low, origin), spt_less_equal(origin, high));
         const spt_wide near = spt_select(within, minus_infinity, infinity);
         const spt_wide far = spt_select(within, infinity, minus_infinity);
-        *entry = spt_max(spt_select(parallel, near, spt_min(a, b)), *entry);
-        *exit = spt_min(spt_select(parallel, far, spt_max(a, b)), *exit);
+        const spt_wide first = interval_earlier(spt_min(a, b)),
+                       last = interval_later(spt_max(a, b));
+        *entry = spt_max(spt_select(parallel, near, first), *entry);
+        *exit = spt_min(spt_select(parallel, far, last), *exit);
     }
 }
 
 /* The discriminant from the ray's closest approach, which does not cancel for far or small spheres
  * as B^2 - AC does; and the second root from the product of both. */
-SPTI_INLINE void interval_of_sphere(const spt_bound *bound, const interval_ray *ray,
+SPTI_INLINE void interval_of_sphere(const spt_bound *bound, const interval_ray *ray, spt_wide size,
                                     spt_wide *entry, spt_wide *exit) {
     const spt_wide zero = spt_splat(0.0f), radius = spt_splat(bound->radius);
     spt_wide offset[3], a = zero, b = zero, c = zero, apart = zero;
@@ -85,8 +102,12 @@ SPTI_INLINE void interval_of_sphere(const spt_bound *bound, const interval_ray *
     const spt_wide first = spt_div(k, a);
     const spt_wide product = spt_sub(c, square);
     const spt_wide second = spt_select(spt_less_equal(magnitude, zero), zero, spt_div(product, k));
-    *entry = spt_select(touched, spt_min(first, second), spt_splat(INFINITY));
-    *exit = spt_select(touched, spt_max(first, second), spt_splat(-INFINITY));
+    const spt_wide margin =
+        spt_div(spt_mul(spt_splat(SPTI_FLOOR), spt_add(ray->reach, size)), ray->length);
+    const spt_wide enters = spt_sub(interval_earlier(spt_min(first, second)), margin);
+    const spt_wide leaves = spt_add(interval_later(spt_max(first, second)), margin);
+    *entry = spt_select(touched, enters, spt_splat(INFINITY));
+    *exit = spt_select(touched, leaves, spt_splat(-INFINITY));
 }
 
 SPTI_INLINE void interval_of_bound(const spt_bound *bound, const interval_ray *ray, spt_wide *t_min,
@@ -94,17 +115,12 @@ SPTI_INLINE void interval_of_bound(const spt_bound *bound, const interval_ray *r
     const spt_wide size = spt_splat(spti_bound_size(bound));
     spt_wide entry, exit;
     if (bound->kind == SPT_BOUND_SPHERE) {
-        interval_of_sphere(bound, ray, &entry, &exit);
+        interval_of_sphere(bound, ray, size, &entry, &exit);
     } else {
-        interval_of_box(bound, ray, &entry, &exit);
+        interval_of_box(bound, ray, size, &entry, &exit);
     }
-    const spt_mask empty = spt_less(exit, entry);
-    entry = spt_select(empty, spt_splat(0.0f), entry); /* no infinity - infinity */
-    exit = spt_select(empty, spt_splat(0.0f), exit);
-    entry = spt_sub(entry, interval_slack(ray, size, entry));
-    exit = spt_add(exit, interval_slack(ray, size, exit));
-    *t_min = spt_max(spt_select(empty, spt_splat(INFINITY), entry), *t_min);
-    *t_max = spt_min(spt_select(empty, spt_splat(-INFINITY), exit), *t_max);
+    *t_min = spt_max(entry, *t_min);
+    *t_max = spt_min(exit, *t_max);
 }
 
 #endif

@@ -10,6 +10,9 @@
 
 #include "../base/compiler.h"
 
+/* The bits of a mask whose lanes are all true. */
+#define SPTI_EVERY_LANE ((1u << (SPT_LANES - 1)) * 2u - 1u)
+
 /* Every lane with its mantissa cleared: the power of two at or below a positive normal number. */
 SPTI_INLINE spt_wide spti_power_of_two(spt_wide a);
 

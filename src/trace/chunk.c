@@ -17,15 +17,9 @@ static void load_column(spti_chunk *chunk, int array, const spt_column *column, 
     if (base == NULL) {
         for (size_t slot = 0; slot < count; ++slot) to[slot] = absent;
     } else if (count == window) {
-        const ptrdiff_t stride = column->stride;
-        size_t slot = 0;
-        for (; slot + 4 <= count; slot += 4, base += 4 * stride) { /* unrolled: half the time */
-            memcpy(&to[slot], base, sizeof *to);
-            memcpy(&to[slot + 1], base + stride, sizeof *to);
-            memcpy(&to[slot + 2], base + 2 * stride, sizeof *to);
-            memcpy(&to[slot + 3], base + 3 * stride, sizeof *to);
+        for (size_t slot = 0; slot < count; ++slot) {
+            memcpy(&to[slot], base + (ptrdiff_t)slot * column->stride, sizeof *to);
         }
-        for (; slot < count; ++slot, base += stride) memcpy(&to[slot], base, sizeof *to);
     } else {
         for (size_t slot = 0; slot < count; ++slot) {
             memcpy(&to[slot], base + chunk->picked[slot] * column->stride, sizeof *to);
@@ -53,7 +47,7 @@ static size_t pick(const spt_column *active, unsigned char *picked, size_t first
 
 /* Loads the active rays of a window; returns how many. */
 static size_t load_chunk(const spti_call *call, spti_chunk *chunk, size_t first, size_t window) {
-    const spt_rays *rays = &call->rays;
+    const spt_rays *rays = call->rays;
     const size_t count = pick(&rays->active, chunk->picked, first, window);
     if (count == 0) return 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -83,15 +77,14 @@ void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
     if (call->statistics != NULL) {
         call->statistics->passes += 1;
         call->statistics->evaluations += n;
-        call->statistics->slots += whole;
+        call->statistics->slots += call->field.batch != NULL ? whole : n;
     }
 }
 
 /* Closes the gaps of a pass that bracketed rays, and moves those to the end of each array once its
  * other rays have made room. Returns how many rays go on; *brackets counts those set aside. */
 static SPTI_NOINLINE size_t set_brackets_aside(const spti_call *call, spti_chunk *chunk,
-                                               size_t count, uint32_t age, const uint16_t *extra,
-                                               size_t *brackets) {
+                                               size_t count, uint32_t age, size_t *brackets) {
     spti_compact_fn *const compact = spti_chunk_kernels_of[call->isa].compact;
     unsigned char slots[SPT_BATCH];
     float kept[SPT_BATCH];
@@ -109,9 +102,9 @@ static SPTI_NOINLINE size_t set_brackets_aside(const spti_call *call, spti_chunk
     for (size_t k = 0; k < aside; ++k) {
         const size_t to = SPTI_ROOM - 1 - *brackets - k;
         chunk->array[SPTI_PENDING_T][to] = chunk->distance[slots[k]]; /* f beyond the crossing */
-        const size_t index = (size_t)chunk->array[SPTI_INDEX][to];
-        const uint32_t evaluations = age + (extra != NULL ? extra[index] : 0u);
-        memcpy(&chunk->array[SPTI_PENDING_VALUE][to], &evaluations, sizeof evaluations);
+        /* Only skipped starts spend anything beside the passes; else the array is not kept. */
+        const int kept_spent = (call->settings.flags & SPT_SKIP_START) != 0;
+        spti_set_spent(chunk, to, age + (kept_spent ? spti_spent(chunk, to) : 0));
     }
     *brackets += aside;
     return remain;
@@ -130,12 +123,11 @@ static unsigned char outcome_of(const spti_fates *fates, unsigned bit) {
 /* Writes out the finished rays and closes the gaps; returns how many rays go on. Brackets are set
  * aside and counted. */
 static size_t empty_finished(const spti_call *call, spti_chunk *chunk, size_t count, size_t first,
-                             uint32_t age, const uint16_t *extra, size_t *brackets) {
+                             uint32_t age, size_t *brackets) {
     spti_leavers leavers;
     unsigned bracketed = 0;
     leavers.count = 0;
-    leavers.evaluations = age;
-    leavers.extra = extra;
+    leavers.age = age;
     leavers.steep = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         const spti_fates *fates = &chunk->fates[group];
@@ -148,7 +140,7 @@ static size_t empty_finished(const spti_call *call, spti_chunk *chunk, size_t co
         }
     }
     spti_write_hits(call, chunk, &leavers, first);
-    if (bracketed) return set_brackets_aside(call, chunk, count, age, extra, brackets);
+    if (bracketed) return set_brackets_aside(call, chunk, count, age, brackets);
     return spti_chunk_kernels_of[call->isa].compact(chunk, call->arrays, call->array_count, count);
 }
 
@@ -168,10 +160,11 @@ static int apply_start_options(const spti_call *call, spti_chunk *chunk, size_t 
     for (size_t slot = 0; slot < count; ++slot) {
         spti_fates *fates = &chunk->fates[slot / SPTI_GROUP];
         const uint16_t bit = (uint16_t)(1u << slot % SPTI_GROUP);
-        /* Still within the tolerance after skipping: the budget ended, and it is no hit. */
-        if (call->settings.flags & SPT_SKIP_START) fates->hit &= (uint16_t)~bit;
-        if ((call->settings.flags & SPT_STOP_INSIDE) && chunk->array[SPTI_SCALE][slot] < 0 &&
-            !(fates->nonfinite & bit)) {
+        const int inside = chunk->array[SPTI_SCALE][slot] < 0.0f && !(fates->nonfinite & bit);
+        if ((call->settings.flags & SPT_SKIP_START) && (fates->hit & bit)) {
+            /* Still within the tolerance: the budget ended while skipping, and it is no hit. */
+            fates->hit &= (uint16_t)~bit;
+        } else if ((call->settings.flags & SPT_STOP_INSIDE) && inside) {
             fates->hit |= bit;
             fates->missed &= (uint16_t)~bit;
             fates->finished |= bit;
@@ -182,66 +175,42 @@ static int apply_start_options(const spti_call *call, spti_chunk *chunk, size_t 
 }
 
 /* Ends the rays whose budget is used up. Returns whether there was one. */
-static int expire(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t age,
-                  const uint16_t *extra) {
-    unsigned any = 0;
+static int expire(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t age) {
+    int any = 0;
     for (size_t slot = 0; slot < count; ++slot) {
-        const uint32_t more = extra != NULL ? extra[(size_t)chunk->array[SPTI_INDEX][slot]] : 0;
-        if (age + more >= call->settings.budget) {
+        if (age + spti_spent(chunk, slot) >= call->settings.budget) {
             chunk->fates[slot / SPTI_GROUP].finished |= (uint16_t)(1u << slot % SPTI_GROUP);
             any = 1;
         }
     }
-    return any != 0;
+    return any;
 }
 
-/* Marches rays until all have left. extra: by index, evaluations before the first pass, or NULL. */
-static void march_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size_t first,
-                        uint16_t *extra) {
-    const int options = (call->settings.flags & (SPT_SKIP_START | SPT_STOP_INSIDE)) != 0;
-    uint32_t age = 0, most_extra = 0;
+/* Marches the rays until all have left; each pass is an evaluation of each. */
+static void march_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size_t first) {
+    const uint32_t flags = call->settings.flags, budget = call->settings.budget;
+    uint32_t most_spent = 0;
     size_t brackets = 0;
-    int any = 0;
-    if (call->settings.budget == 0) {
-        memset(chunk->fates, 0, sizeof chunk->fates);
-        any = expire(call, chunk, count, 0, NULL);
-        count = any ? empty_finished(call, chunk, count, first, 0, NULL, &brackets) : count;
-    }
-    while (count > 0) {
+    for (uint32_t age = 0; count > 0 && age < budget; ++age) {
         spti_evaluate(call, chunk, count);
         if (age == 0) {
-            if (extra != NULL) most_extra = spti_skip_start(call, chunk, count, extra);
+            if (flags & SPT_SKIP_START) most_spent = spti_skip_start(call, chunk, count);
             start_rays(chunk, count);
         }
-        any = call->pass(chunk, &call->march, count, age == 0);
-        if (age == 0 && options) any = apply_start_options(call, chunk, count);
-        ++age;
-        if (age + most_extra >= call->settings.budget) {
-            any |= expire(call, chunk, count, age, extra);
-        }
-        if (any) count = empty_finished(call, chunk, count, first, age, extra, &brackets);
+        int any = call->pass(chunk, &call->march, count, age == 0);
+        if (age == 0 && flags != 0) any = apply_start_options(call, chunk, count);
+        if (budget - age - 1 <= most_spent) any |= expire(call, chunk, count, age + 1);
+        if (any) count = empty_finished(call, chunk, count, first, age + 1, &brackets);
     }
     if (brackets > 0) spti_close_brackets(call, chunk, brackets, first);
-}
-
-/* With the array it needs in a frame of its own. */
-static SPTI_NOINLINE void march_skipping(const spti_call *call, spti_chunk *chunk, size_t count,
-                                         size_t first) {
-    uint16_t extra[SPT_BATCH];
-    memset(extra, 0, sizeof extra);
-    march_chunk(call, chunk, count, first, extra);
 }
 
 void spti_trace_chunk(const spti_call *call, size_t first, size_t window) {
     spti_chunk chunk;
     size_t count = load_chunk(call, &chunk, first, window), brackets = 0;
     if (count == 0) return;
-    if (spti_chunk_kernels_of[call->isa].prepare(&chunk, &call->march, count)) {
-        count = empty_finished(call, &chunk, count, first, 0, NULL, &brackets);
-    }
-    if (call->settings.flags & SPT_SKIP_START) {
-        march_skipping(call, &chunk, count, first);
-    } else {
-        march_chunk(call, &chunk, count, first, NULL);
-    }
+    int any = spti_chunk_kernels_of[call->isa].prepare(&chunk, &call->march, count);
+    if (call->settings.budget == 0) any |= expire(call, &chunk, count, 0);
+    if (any) count = empty_finished(call, &chunk, count, first, 0, &brackets);
+    march_chunk(call, &chunk, count, first);
 }

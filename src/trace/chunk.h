@@ -7,6 +7,8 @@
 
 #include <spheretrace/trace.h>
 
+#include <string.h>
+
 #include "../base/compiler.h"
 
 enum {
@@ -45,8 +47,9 @@ enum {
     SPTI_MEMORY,                      /* two arrays for the rule, or one and */
     SPTI_PENDING_T = SPTI_MEMORY + 1, /* the rejected probe that may be reached later; t 0: none */
     SPTI_PENDING_VALUE,
-    SPTI_STEEPEST, /* largest slope seen, of f / lipschitz */
-    SPTI_FALLBACKS,
+    SPTI_SPENT,     /* evaluations beside those of the passes; see spti_spent() */
+    SPTI_STEEPEST,  /* largest slope seen, of f / lipschitz */
+    SPTI_FALLBACKS, /* exact to 2^24 */
     SPTI_CANDIDATE_T,
     SPTI_CANDIDATE_RATIO,
     SPTI_ARRAYS
@@ -96,5 +99,17 @@ typedef struct spti_chunk_kernels {
 
 /* By instruction set (backend/isa.h). */
 extern const spti_chunk_kernels spti_chunk_kernels_of[];
+
+/* The evaluations of the ray in a slot beside those of the passes it was in. Their bits, since a
+ * float counts only to 2^24, and arrays move bits. */
+static inline uint32_t spti_spent(const spti_chunk *chunk, size_t slot) {
+    uint32_t evaluations;
+    memcpy(&evaluations, &chunk->array[SPTI_SPENT][slot], sizeof evaluations);
+    return evaluations;
+}
+
+static inline void spti_set_spent(spti_chunk *chunk, size_t slot, uint32_t evaluations) {
+    memcpy(&chunk->array[SPTI_SPENT][slot], &evaluations, sizeof evaluations);
+}
 
 #endif

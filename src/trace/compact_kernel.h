@@ -24,13 +24,13 @@ SPTI_INLINE size_t compact_bits(unsigned bits) {
 SPTI_INLINE size_t compact_pass(spti_chunk *chunk, const unsigned char *arrays, size_t array_count,
                                 size_t count) {
     compact_move moves[SPT_BATCH / SPT_LANES];
-    const unsigned every = (1u << (SPT_LANES - 1)) * 2u - 1u;
     size_t first = 0, last = 0, remain = 0;
     for (size_t at = 0; at < count; at += SPT_LANES, ++last) {
         const spti_fates *fates = &chunk->fates[at / SPTI_GROUP];
-        unsigned keep = ~((unsigned)fates->finished >> at % SPTI_GROUP) & every;
+        unsigned keep = ~((unsigned)fates->finished >> at % SPTI_GROUP) & SPTI_EVERY_LANE;
         if (count - at < SPT_LANES) keep &= (1u << (count - at)) - 1u;
-        if (keep == every && first == last) ++first; /* nothing left before: it stays in place */
+        if (keep == SPTI_EVERY_LANE && first == last)
+            ++first; /* nothing left before: it stays in place */
         moves[last].keep = (uint16_t)keep;
         moves[last].to = (uint16_t)remain;
         remain += compact_bits(keep);

@@ -11,8 +11,8 @@ typedef struct spti_call {
     spt_bound bound;
     spt_settings settings;
     spti_march march;
-    spt_rays rays;
-    spt_hits hits;
+    const spt_rays *rays;
+    const spt_hits *hits;
     spt_statistics *statistics; /* the caller's, or NULL */
     spti_isa isa;
     spti_march_fn *pass;
@@ -24,9 +24,8 @@ typedef struct spti_call {
 /* Rays that leave a chunk together. */
 typedef struct spti_leavers {
     size_t count;
-    uint32_t evaluations;  /* of each, and */
-    const uint16_t *extra; /* by index, those before the first pass; or NULL */
-    int steep;             /* a bracket betrayed the field */
+    uint32_t age; /* passes they were in */
+    int steep;    /* a bracket betrayed the field */
     uint16_t slots[SPT_BATCH];
     unsigned char outcomes[SPT_BATCH];
     unsigned char indices[SPT_BATCH]; /* where they were loaded, and */
@@ -52,14 +51,7 @@ void spti_write_hits(const spti_call *call, const spti_chunk *chunk, spti_leaver
 void spti_close_brackets(const spti_call *call, spti_chunk *chunk, size_t count, size_t first);
 
 /* SPT_SKIP_START: walks the rays of the chunk whose sample at t_min is within the tolerance out of
- * it. extra, by index and zero at first, receives the evaluations that this took. Returns the
- * most. */
-uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count, uint16_t *extra);
-
-/* The tolerance at t for the ray in a slot, in t. */
-float spti_tolerance(const spti_call *call, const spti_chunk *chunk, size_t slot, float t);
-
-/* Puts the point at t of the ray in slot `from` into place `to` of those to evaluate. */
-void spti_place_point(spti_chunk *chunk, size_t from, size_t to, float t);
+ * it. Returns the most evaluations that this took a ray; each ray's own are its spti_spent(). */
+uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count);
 
 #endif

@@ -35,7 +35,7 @@ static int reached(unsigned char outcome) {
 static void write_place(const spti_call *call, const spti_chunk *chunk, const spti_leavers *leavers,
                         size_t first) {
     leave_column column;
-    if (wanted(&call->hits.t, first, &column)) {
+    if (wanted(&call->hits->t, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const size_t slot = leavers->slots[i];
             const float t = chunk->array[SPTI_T][slot] * chunk->unit[leavers->indices[i]];
@@ -43,7 +43,7 @@ static void write_place(const spti_call *call, const spti_chunk *chunk, const sp
             write_word(&column, leavers->rays[i], &written);
         }
     }
-    if (wanted(&call->hits.residual, first, &column)) {
+    if (wanted(&call->hits->residual, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const size_t slot = leavers->slots[i];
             const float value = chunk->array[SPTI_VALUE][slot];
@@ -53,22 +53,23 @@ static void write_place(const spti_call *call, const spti_chunk *chunk, const sp
     }
 }
 
-static void write_end(const spti_call *call, const spti_leavers *leavers, size_t first) {
+static void write_end(const spti_call *call, const spti_chunk *chunk, const spti_leavers *leavers,
+                      size_t first) {
     leave_column column;
-    if (wanted(&call->hits.outcome, first, &column)) {
+    if (wanted(&call->hits->outcome, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const int32_t outcome = leavers->outcomes[i];
             write_word(&column, leavers->rays[i], &outcome);
         }
     }
-    if (wanted(&call->hits.evaluations, first, &column)) {
+    if (wanted(&call->hits->evaluations, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
-            const uint32_t extra = leavers->extra != NULL ? leavers->extra[leavers->indices[i]] : 0;
-            const uint32_t evaluations = leavers->evaluations + extra;
+            const uint32_t spent = spti_spent(chunk, leavers->slots[i]);
+            const uint32_t evaluations = leavers->age + spent;
             write_word(&column, leavers->rays[i], &evaluations);
         }
     }
-    if (wanted(&call->hits.component, first, &column)) {
+    if (wanted(&call->hits->component, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const int32_t component = leavers->outcomes[i] == SPT_HIT ? 0 : -1;
             write_word(&column, leavers->rays[i], &component);
@@ -79,7 +80,7 @@ static void write_end(const spti_call *call, const spti_leavers *leavers, size_t
 static void write_candidate(const spti_call *call, const spti_chunk *chunk,
                             const spti_leavers *leavers, size_t first) {
     leave_column column;
-    if (wanted(&call->hits.candidate_t, first, &column)) {
+    if (wanted(&call->hits->candidate_t, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const size_t slot = leavers->slots[i];
             const int there = chunk->array[SPTI_CANDIDATE_RATIO][slot] < INFINITY;
@@ -88,7 +89,7 @@ static void write_candidate(const spti_call *call, const spti_chunk *chunk,
             write_word(&column, leavers->rays[i], &written);
         }
     }
-    if (wanted(&call->hits.candidate_ratio, first, &column)) {
+    if (wanted(&call->hits->candidate_ratio, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const size_t slot = leavers->slots[i];
             write_word(&column, leavers->rays[i], &chunk->array[SPTI_CANDIDATE_RATIO][slot]);
@@ -99,7 +100,7 @@ static void write_candidate(const spti_call *call, const spti_chunk *chunk,
 static void write_audit(const spti_call *call, const spti_chunk *chunk, const spti_leavers *leavers,
                         size_t first) {
     leave_column column;
-    if (wanted(&call->hits.flags, first, &column)) {
+    if (wanted(&call->hits->flags, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const size_t slot = leavers->slots[i];
             const int steep = leavers->steep || chunk->array[SPTI_STEEPEST][slot] > STEEP_SLOPE;
@@ -108,7 +109,7 @@ static void write_audit(const spti_call *call, const spti_chunk *chunk, const sp
             write_word(&column, leavers->rays[i], &flags);
         }
     }
-    if (wanted(&call->hits.fallbacks, first, &column)) {
+    if (wanted(&call->hits->fallbacks, first, &column)) {
         for (size_t i = 0; i < leavers->count; ++i) {
             const size_t slot = leavers->slots[i];
             const uint32_t fallbacks = (uint32_t)chunk->array[SPTI_FALLBACKS][slot];
@@ -137,7 +138,7 @@ void spti_write_hits(const spti_call *call, const spti_chunk *chunk, spti_leaver
         leavers->rays[i] = chunk->picked[index];
     }
     write_place(call, chunk, leavers, first);
-    write_end(call, leavers, first);
+    write_end(call, chunk, leavers, first);
     if (call->wants & SPTI_WANT_CANDIDATE) write_candidate(call, chunk, leavers, first);
     write_audit(call, chunk, leavers, first);
     if (call->statistics != NULL) count_in(call, chunk, leavers);

@@ -16,13 +16,12 @@
 
 #include <float.h>
 
-#include "../base/arguments.h"
-#include "chunk.h"
+#include "ray_kernel.h"
 
 /* Everything uniform, in all lanes. */
 typedef struct march_constants {
     spti_parameters rule;
-    spt_wide pixel_radius, floor_slope, margin;
+    spt_wide pixel_radius, margin;
     spt_mask first;
 } march_constants;
 
@@ -55,14 +54,9 @@ SPTI_INLINE void march_add_fate(uint16_t *fate, spt_mask lanes, unsigned shift) 
     *fate = (uint16_t)(*fate | spt_mask_bits(lanes) << shift);
 }
 
-SPTI_INLINE spt_wide march_floor(const march_constants *all, const march_rays *rays, spt_wide t) {
-    return spt_add(spt_mul(all->floor_slope, t), rays->floor_at_0);
-}
-
 SPTI_INLINE spt_wide march_tolerance(const march_constants *all, const march_rays *rays, spt_wide t,
                                      spt_wide floor) {
-    const spt_wide cone = spt_mul(all->pixel_radius, spt_add(rays->path, t));
-    return spt_max(rays->epsilon, spt_max(cone, floor));
+    return ray_tolerance(rays->epsilon, all->pixel_radius, rays->path, floor, t);
 }
 
 /* Whether the spheres of radius a and b, `step` apart, overlap by more than rounding can feign, in
@@ -88,10 +82,12 @@ SPTI_INLINE void march_candidate(const march_rays *rays, const march_state *ray,
 SPTI_INLINE void march_slope(const spti_pair *pair, spt_wide floor, spt_mask certified,
                              march_audit *audit) {
     const spt_wide change = spt_abs(spt_sub(pair->after, pair->before));
-    const spt_wide slope = spt_div(spt_sub(change, spt_add(floor, floor)), pair->step);
-    const spt_mask steeper =
-        spt_mask_and(spt_less(audit->steepest, slope), spt_less_equal(slope, spt_splat(FLT_MAX)));
-    audit->steepest = spt_select(spt_mask_and(certified, steeper), slope, audit->steepest);
+    const spt_wide most = spt_splat(FLT_MAX);
+    const spt_wide beyond = spt_sub(change, spt_add(floor, floor));
+    const spt_wide slope = spt_min(spt_div(beyond, pair->step), most);
+    const spt_mask finite = spt_mask_and(certified, spt_less_equal(change, most));
+    const spt_mask steeper = spti_less_in(finite, audit->steepest, slope);
+    audit->steepest = spt_select(steeper, slope, audit->steepest);
 }
 
 /* The rule's memory after a certified sample, in the lanes of the mask. No ray leaps in its first
@@ -112,7 +108,7 @@ SPTI_INLINE void march_accept(const march_constants *all, const spti_pair *pair,
 SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays *rays,
                                    const march_state *ray, spt_mask rejected, spt_mask *missed) {
     const spt_mask inside = spt_less(rays->scale, spt_splat(0.0f));
-    const spti_standing standing = {ray->radius, march_floor(all, rays, ray->t),
+    const spti_standing standing = {ray->radius, ray_floor(rays->floor_at_0, ray->t),
                                     spti_mask_not(inside)};
     const spt_mask covered = spt_less_equal(spt_add(ray->t, ray->radius), rays->t_max);
     spt_mask rising = spt_mask_splat(0);
@@ -142,12 +138,15 @@ typedef struct march_sample {
 } march_sample;
 
 /* A probe beyond the certified sphere counts only if its own sphere reaches back; what else it
- * shows, even NaN, is no event. (-infinity from inside looks like a large radius, hence legal.) */
+ * shows, even NaN, is no event. (-infinity from inside looks like a large radius, hence legal.) A
+ * probe that lands inside the surface could end the ray at t + radius with a bound of the residual;
+ * but a hit's residual is f at the hit, and the evaluation that this costs is rare: one scene of ten
+ * took 8.97 evaluations a ray instead of 8.95, the others the same. */
 SPTI_INLINE void march_judge(const march_constants *all, const march_rays *rays,
                              const march_state *ray, march_sample *sample) {
     const spt_wide zero = spt_splat(0.0f), step = spt_sub(sample->t, ray->t);
     sample->radius = spt_mul(sample->value, rays->scale);
-    sample->floor = march_floor(all, rays, sample->t);
+    sample->floor = ray_floor(rays->floor_at_0, sample->t);
     sample->tolerance = march_tolerance(all, rays, sample->t, sample->floor);
     sample->legal = spt_less_equal(spt_splat(-FLT_MAX), sample->value);
     sample->rejected = spt_mask_splat(0);
@@ -200,7 +199,7 @@ SPTI_INLINE void march_leap(const march_constants *all, const march_rays *rays, 
     ray->pending_t = spt_select(sample->rejected, kept, ray->pending_t);
     ray->pending_value = spt_select(sample->rejected, sample->value, ray->pending_value);
     const spt_wide radius = spt_mul(ray->pending_value, rays->scale);
-    const spt_wide floor = march_floor(all, rays, ray->pending_t);
+    const spt_wide floor = ray_floor(rays->floor_at_0, ray->pending_t);
     const spt_wide leap = spt_sub(ray->pending_t, ray->t);
     const spt_mask ahead = spti_less_in(spti_mask_not(sample->settled), ray->t, ray->pending_t);
     const spt_mask leaps = march_overlap(all, ahead, ray->radius, radius, leap, floor);
@@ -247,9 +246,7 @@ SPTI_INLINE void march_store_state(spti_chunk *chunk, size_t at, const march_sta
 /* The points at t, to be evaluated next. */
 SPTI_INLINE void march_store_points(spti_chunk *chunk, size_t at, spt_wide t) {
     for (int axis = 0; axis < 3; ++axis) {
-        const spt_wide along = spt_mul(t, march_load(chunk, SPTI_DIRECTION + axis, at));
-        const spt_wide origin = march_load(chunk, SPTI_ORIGIN + axis, at);
-        march_store(chunk, SPTI_X + axis, at, spt_add(origin, along));
+        march_store(chunk, SPTI_X + axis, at, ray_point(chunk, axis, at, t));
     }
 }
 
@@ -329,7 +326,6 @@ SPTI_INLINE int march_pass(spti_chunk *chunk, const spti_march *march, size_t co
     const march_constants all = {{spt_splat(march->relaxation), spt_splat(march->extrapolation),
                                   spt_splat(march->slope_blend), spt_splat(march->step_cap)},
                                  spt_splat(march->pixel_radius),
-                                 spt_splat(SPTI_FLOOR),
                                  spt_splat(1.0f + SPTI_FLOOR),
                                  spt_mask_splat(first)};
     unsigned any = 0;

@@ -4,7 +4,9 @@
 #include "../base/arguments.h"
 #include "driver.h"
 
-enum { rounds = 3, most_calls = 1 << 24, patience = 1 << 16 };
+/* A round lasts at least a millisecond and so many ticks of the clock; the limits are on what is
+ * done with a clock that does not move, or hardly. */
+enum { rounds = 3, ticks = 16, most_reads = 1 << 22, most_evaluations = 1 << 26 };
 
 typedef struct measure_points {
     SPTI_ALIGNED(64) float at[3][SPT_BATCH];
@@ -23,7 +25,7 @@ static void spread(measure_points *points, const spt_bound *bound) {
         for (int i = 0; i < SPT_BATCH; ++i) {
             part += step[axis];
             if (part >= 1) part -= 1;
-            points->at[axis][i] = low[axis] + (high[axis] - low[axis]) * (float)part;
+            points->at[axis][i] = low[axis] * (float)(1 - part) + high[axis] * (float)part;
         }
     }
 }
@@ -43,22 +45,32 @@ static void ask(const spt_field *field, measure_points *points, size_t n) {
     }
 }
 
-/* The least time per evaluation over a few rounds of at least a millisecond; negative where the
- * clock has not moved after `patience` calls. */
-static double nanoseconds(const spt_field *field, measure_points *points, size_t n,
+/* The clock's step, as far as it shows; 0 where it stands still. */
+static double tick_of(spt_clock_fn *clock, void *clock_user) {
+    double start = clock(clock_user), now = start;
+    for (int edge = 0; edge < 2; ++edge) { /* the first one begins a whole step */
+        start = now;
+        for (int read = 0; read < most_reads && !(now > start); ++read) now = clock(clock_user);
+    }
+    return now > start ? now - start : 0;
+}
+
+/* The least time per evaluation over a few rounds, or negative where the clock is too slow. */
+static double nanoseconds(const spt_field *field, measure_points *points, size_t n, double tick,
                           spt_clock_fn *clock, void *clock_user) {
+    const double shortest = ticks * tick > 1e-3 ? ticks * tick : 1e-3;
     double least = -1;
-    for (int round = 0; round < rounds && (round == 0 || least >= 0); ++round) {
-        for (long calls = 1; calls <= most_calls; calls *= 2) {
+    for (int round = 0; round < rounds; ++round) {
+        for (size_t calls = 1; calls * n <= most_evaluations; calls *= 2) {
             const double start = clock(clock_user);
-            for (long call = 0; call < calls; ++call) ask(field, points, n);
+            for (size_t call = 0; call < calls; ++call) ask(field, points, n);
             const double seconds = clock(clock_user) - start;
-            if (!(seconds > 0) && calls >= patience) return least;
-            if (!(seconds >= 1e-3)) continue;
+            if (!(seconds >= shortest)) continue;
             const double each = seconds * 1e9 / ((double)calls * (double)n);
             if (least < 0 || each < least) least = each;
             break;
         }
+        if (least < 0) break;
     }
     return least;
 }
@@ -72,9 +84,12 @@ spt_status spt_field_measure(const spt_field *field, spt_clock_fn *clock, void *
         return SPT_BAD_ARGUMENT;
     }
     spread(&points, copy.bound != NULL ? &bound : NULL);
-    const double narrow = nanoseconds(&copy, &points, SPTI_GROUP, clock, clock_user);
-    const double wide = nanoseconds(&copy, &points, SPT_BATCH, clock, clock_user);
-    if (narrow < 0 || wide < 0) return SPT_UNSUPPORTED;
+    const double tick = tick_of(clock, clock_user);
+    if (!(tick > 0)) return SPT_UNSUPPORTED;
+    const double narrow = nanoseconds(&copy, &points, SPTI_GROUP, tick, clock, clock_user);
+    if (narrow < 0) return SPT_UNSUPPORTED;
+    const double wide = nanoseconds(&copy, &points, SPT_BATCH, tick, clock, clock_user);
+    if (wide < 0) return SPT_UNSUPPORTED;
     cost->nanoseconds_16 = narrow;
     cost->nanoseconds_256 = wide;
     return SPT_OK;

@@ -8,94 +8,123 @@
 #include <float.h>
 #include <math.h>
 
-#include "../base/arguments.h"
 #include "../bound/interval_kernel.h"
-#include "chunk.h"
+#include "ray_kernel.h"
 
 SPTI_INLINE spt_mask prepare_finite(spt_wide a) {
     return spt_less_equal(spt_abs(a), spt_splat(FLT_MAX));
 }
 
-SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, size_t at,
-                                unsigned shift, spti_fates *fates) {
-    const spt_wide zero = spt_splat(0.0f), tiny = spt_splat(FLT_MIN), most = spt_splat(FLT_MAX);
+/* Rays as the caller gave them, then in their own units. */
+typedef struct prepare_rays {
     interval_ray ray;
-    spt_wide reach = zero, largest = zero;
-    spt_mask good = spt_mask_splat(1);
-    for (int axis = 0; axis < 3; ++axis) {
-        ray.origin[axis] = spt_load(&chunk->array[SPTI_ORIGIN + axis][at]);
-        ray.direction[axis] = spt_load(&chunk->array[SPTI_DIRECTION + axis][at]);
-        good = spt_mask_and(good, prepare_finite(ray.origin[axis]));
-        good = spt_mask_and(good, prepare_finite(ray.direction[axis]));
-        reach = spt_max(reach, spt_abs(ray.origin[axis]));
-        largest = spt_max(largest, spt_abs(ray.direction[axis]));
-    }
-    spt_wide t_min = spt_load(&chunk->array[SPTI_T][at]);
-    spt_wide t_max = spt_load(&chunk->array[SPTI_T_MAX][at]);
-    spt_wide path = spt_load(&chunk->array[SPTI_PATH][at]);
-    good = spt_mask_and(good, spt_mask_and(prepare_finite(t_min), prepare_finite(path)));
-    good =
-        spt_mask_and(good, spt_mask_and(spt_less_equal(zero, t_min), spt_less_equal(zero, path)));
-    good = spt_mask_and(good, spt_less_equal(t_max, spt_splat(INFINITY)));
-    good = spt_mask_and(good, spt_less_equal(tiny, largest));
+    spt_wide t_min, t_max, path;
+    spt_wide largest; /* component of the direction */
+    spt_mask good;
+} prepare_rays;
 
-    /* The ray's own unit, a power of two. 2^127 has no normal inverse, so at most 2^126. Bad rays
-     * get harmless numbers, so that they raise no exception. */
-    spt_wide power = spti_power_of_two(spt_min(spt_max(largest, tiny), spt_splat(0x1p126f)));
-    power = spt_select(good, power, spt_splat(1.0f));
-    reach = spt_select(good, reach, zero);
-    path = spt_select(good, path, zero);
-    const spt_wide unit = spt_div(spt_splat(1.0f), power);
+SPTI_INLINE void prepare_load(const spti_chunk *chunk, size_t at, prepare_rays *rays) {
+    const spt_wide zero = spt_splat(0.0f);
+    interval_ray *const ray = &rays->ray;
+    spt_mask good = spt_mask_splat(1);
+    ray->reach = rays->largest = zero;
+    for (int axis = 0; axis < 3; ++axis) {
+        ray->origin[axis] = spt_load(&chunk->array[SPTI_ORIGIN + axis][at]);
+        ray->direction[axis] = spt_load(&chunk->array[SPTI_DIRECTION + axis][at]);
+        good = spt_mask_and(good, prepare_finite(ray->origin[axis]));
+        good = spt_mask_and(good, prepare_finite(ray->direction[axis]));
+        ray->reach = spt_max(ray->reach, spt_abs(ray->origin[axis]));
+        rays->largest = spt_max(rays->largest, spt_abs(ray->direction[axis]));
+    }
+    rays->t_min = spt_load(&chunk->array[SPTI_T][at]);
+    rays->t_max = spt_load(&chunk->array[SPTI_T_MAX][at]);
+    rays->path = spt_load(&chunk->array[SPTI_PATH][at]);
+    good =
+        spt_mask_and(good, spt_mask_and(prepare_finite(rays->t_min), prepare_finite(rays->path)));
+    good = spt_mask_and(good, spt_less_equal(zero, rays->t_min));
+    good = spt_mask_and(good, spt_less_equal(zero, rays->path));
+    good = spt_mask_and(good, spt_less_equal(rays->t_max, spt_splat(INFINITY)));
+    rays->good = spt_mask_and(good, spt_less_equal(spt_splat(FLT_MIN), rays->largest));
+}
+
+/* Scales by a power of two, so far that t and positions stay finite. Bad rays get harmless numbers,
+ * so that they raise no exception. Returns what a unit of t is to the caller. */
+SPTI_INLINE spt_wide prepare_units(prepare_rays *rays) {
+    const spt_wide zero = spt_splat(0.0f), one = spt_splat(1.0f), most = spt_splat(FLT_MAX);
+    const spt_wide tiny = spt_splat(FLT_MIN);
+    interval_ray *const ray = &rays->ray;
+    const spt_wide power = spt_select(rays->good, interval_power(rays->largest), one);
+    const spt_wide unit = spt_div(one, power);
     spt_wide square[3];
     for (int axis = 0; axis < 3; ++axis) {
-        ray.direction[axis] = spt_select(good, ray.direction[axis], spt_splat(1.0f));
-        ray.origin[axis] = spt_select(good, ray.origin[axis], zero);
-        ray.direction[axis] = spt_mul(ray.direction[axis], unit);
-        square[axis] = spt_mul(ray.direction[axis], ray.direction[axis]);
+        const spt_wide direction = spt_select(rays->good, ray->direction[axis], one);
+        ray->origin[axis] = spt_select(rays->good, ray->origin[axis], zero);
+        ray->direction[axis] = spt_mul(direction, unit);
+        square[axis] = spt_mul(ray->direction[axis], ray->direction[axis]);
     }
-    const spt_wide length = spt_sqrt(spt_add(spt_add(square[0], square[1]), square[2]));
-    t_min = spt_select(good, spt_mul(t_min, power), zero);
-    t_max = spt_select(good, spt_mul(t_max, power), zero);
-    const spt_wide floor_at_0 =
-        spt_div(spt_add(spt_mul(spt_splat(SPTI_FLOOR), reach), spt_splat(SPTI_FLOOR * march->size)),
-                length);
+    ray->length = spt_sqrt(spt_add(spt_add(square[0], square[1]), square[2]));
+    ray->reach = spt_select(rays->good, ray->reach, zero);
+    /* path + t must not overflow. */
+    rays->path = spt_min(spt_select(rays->good, rays->path, zero), spt_splat(FLT_MAX / 4));
 
-    /* So far that t and positions stay finite, and lengths well within the range. */
-    spt_wide limit = spt_min(spt_splat(FLT_MAX / 4), spt_sub(most, reach));
-    limit = spt_div(spt_mul(limit, spt_splat(1.0f - 0x1p-20f)), length);
-    t_max = spt_min(t_max, spt_min(limit, spt_mul(most, spt_min(power, spt_splat(1.0f)))));
-    if (march->bound != NULL) {
-        ray.length = length;
-        ray.reach = reach;
-        interval_of_bound(march->bound, &ray, &t_min, &t_max);
-    }
-    const spt_mask missed = spt_mask_and_not(good, spt_less_equal(t_min, t_max));
-    const spt_mask traced = spt_mask_and_not(good, missed);
-    t_min = spt_select(traced, t_min, zero);
+    /* Scaling loses bits below FLT_MIN only: there t_min is raised and t_max lowered. */
+    spt_wide t_min = spt_select(rays->good, spt_mul(rays->t_min, power), zero);
+    spt_wide t_max = spt_select(rays->good, spt_mul(rays->t_max, power), zero);
+    t_min = spt_select(spt_less(zero, rays->t_min), spt_max(t_min, tiny), t_min);
+    t_max = spt_select(spt_less(t_max, tiny), spt_min(t_max, zero), t_max);
+    spt_wide limit = spt_min(spt_splat(FLT_MAX / 4), spt_sub(most, ray->reach));
+    limit = spt_div(spt_mul(limit, spt_splat(1.0f - 0x1p-20f)), ray->length);
+    limit = spt_min(limit, spt_mul(most, spt_min(power, one)));
+    rays->t_min = t_min;
+    rays->t_max = spt_min(t_max, limit);
+    return unit;
+}
 
-    const unsigned every = (1u << (SPT_LANES - 1)) * 2u - 1u;
-    fates->bad = (uint16_t)(fates->bad | (~spt_mask_bits(good) & every) << shift);
-    fates->missed = (uint16_t)(fates->missed | spt_mask_bits(missed) << shift);
-    fates->finished = (uint16_t)(fates->finished | (~spt_mask_bits(traced) & every) << shift);
-    const spt_wide scale = spt_div(spt_splat(march->inverse_lipschitz), length);
-    spt_store(&chunk->unit[at], unit);
+SPTI_INLINE void prepare_store(spti_chunk *chunk, const spti_march *march, size_t at,
+                               const prepare_rays *rays) {
+    const interval_ray *const ray = &rays->ray;
+    const spt_wide least = spt_splat(0x1p-149f); /* f = 0 is within any epsilon */
+    const spt_wide reach = spt_mul(spt_splat(SPTI_FLOOR), ray->reach);
+    const spt_wide floor_at_0 = spt_add(reach, spt_splat(SPTI_FLOOR * march->size));
+    const spt_wide epsilon = spt_div(spt_splat(march->epsilon), ray->length);
+    const spt_wide scale = spt_div(spt_splat(march->inverse_lipschitz), ray->length);
     spt_store(&chunk->array[SPTI_SCALE][at], scale);
-    spt_store(&chunk->array[SPTI_T_MAX][at], t_max);
-    spt_store(&chunk->array[SPTI_EPSILON][at], spt_div(spt_splat(march->epsilon), length));
-    spt_store(&chunk->array[SPTI_PATH][at], spt_div(path, length));
-    spt_store(&chunk->array[SPTI_FLOOR_AT_0][at], floor_at_0);
-    spt_store(&chunk->array[SPTI_T][at], t_min);
-    spt_store(&chunk->array[SPTI_PROBE][at], t_min);
+    spt_store(&chunk->array[SPTI_T_MAX][at], rays->t_max);
+    spt_store(&chunk->array[SPTI_EPSILON][at], spt_max(epsilon, least));
+    spt_store(&chunk->array[SPTI_PATH][at], spt_div(rays->path, ray->length));
+    spt_store(&chunk->array[SPTI_FLOOR_AT_0][at], spt_div(floor_at_0, ray->length));
+    spt_store(&chunk->array[SPTI_T][at], rays->t_min);
+    spt_store(&chunk->array[SPTI_PROBE][at], rays->t_min);
     spt_store(&chunk->array[SPTI_VALUE][at], spt_splat(INFINITY)); /* where nothing is evaluated */
     for (int array = SPTI_MEMORY; array < SPTI_CANDIDATE_RATIO; ++array) {
-        spt_store(&chunk->array[array][at], zero);
+        spt_store(&chunk->array[array][at], spt_splat(0.0f));
     }
     spt_store(&chunk->array[SPTI_CANDIDATE_RATIO][at], spt_splat(INFINITY));
     for (int axis = 0; axis < 3; ++axis) {
-        const spt_wide along = spt_mul(t_min, ray.direction[axis]);
-        spt_store(&chunk->array[SPTI_DIRECTION + axis][at], ray.direction[axis]);
-        spt_store(&chunk->array[SPTI_X + axis][at], spt_add(ray.origin[axis], along));
+        spt_store(&chunk->array[SPTI_DIRECTION + axis][at], ray->direction[axis]);
+        const spt_wide point = ray_point(chunk, axis, at, rays->t_min);
+        spt_store(&chunk->array[SPTI_X + axis][at], point);
     }
+}
+
+SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, size_t at,
+                                unsigned shift, spti_fates *fates) {
+    prepare_rays rays;
+    prepare_load(chunk, at, &rays);
+    const spt_wide unit = prepare_units(&rays);
+    if (march->bound != NULL) {
+        interval_of_bound(march->bound, &rays.ray, &rays.t_min, &rays.t_max);
+    }
+    const spt_mask missed = spt_mask_and_not(rays.good, spt_less_equal(rays.t_min, rays.t_max));
+    const spt_mask traced = spt_mask_and_not(rays.good, missed);
+    rays.t_min = spt_select(traced, rays.t_min, spt_splat(0.0f));
+    const unsigned bad = ~spt_mask_bits(rays.good) & SPTI_EVERY_LANE;
+    const unsigned finished = ~spt_mask_bits(traced) & SPTI_EVERY_LANE;
+    fates->bad = (uint16_t)(fates->bad | bad << shift);
+    fates->missed = (uint16_t)(fates->missed | spt_mask_bits(missed) << shift);
+    fates->finished = (uint16_t)(fates->finished | finished << shift);
+    spt_store(&chunk->unit[at], unit);
+    prepare_store(chunk, march, at, &rays);
 }
 
 SPTI_INLINE int prepare_pass(spti_chunk *chunk, const spti_march *march, size_t count) {

@@ -2,25 +2,23 @@
  *
  * What few rays need, one by one in plain C around the batch callback: leaving the surface a ray
  * starts on, and closing the bracket around a sign change that no distance bound would show. */
+#define SPT_LANES 1
 #include <math.h>
 
-#include "../base/arguments.h"
 #include "driver.h"
+#include "ray_kernel.h"
 
-static float larger(float a, float b) {
-    return a > b ? a : b;
+/* The tolerance at t for the ray in a slot, in t. */
+static float tolerance_at(const spti_call *call, const spti_chunk *chunk, size_t slot, float t) {
+    const float floor = ray_floor(chunk->array[SPTI_FLOOR_AT_0][slot], t);
+    return ray_tolerance(chunk->array[SPTI_EPSILON][slot], call->march.pixel_radius,
+                         chunk->array[SPTI_PATH][slot], floor, t);
 }
 
-float spti_tolerance(const spti_call *call, const spti_chunk *chunk, size_t slot, float t) {
-    const float cone = call->march.pixel_radius * (chunk->array[SPTI_PATH][slot] + t);
-    const float floor = SPTI_FLOOR * t + chunk->array[SPTI_FLOOR_AT_0][slot];
-    return larger(chunk->array[SPTI_EPSILON][slot], larger(cone, floor));
-}
-
-void spti_place_point(spti_chunk *chunk, size_t from, size_t to, float t) {
+/* Puts the point at t of the ray in slot `from` into place `to` of those to evaluate. */
+static void place_point(spti_chunk *chunk, size_t from, size_t to, float t) {
     for (int axis = 0; axis < 3; ++axis) {
-        const float along = t * chunk->array[SPTI_DIRECTION + axis][from];
-        chunk->array[SPTI_X + axis][to] = chunk->array[SPTI_ORIGIN + axis][from] + along;
+        chunk->array[SPTI_X + axis][to] = ray_point(chunk, axis, from, t);
     }
 }
 
@@ -36,10 +34,25 @@ static void pad_points(spti_chunk *chunk, size_t count) {
 static int within_tolerance(const spti_call *call, const spti_chunk *chunk, size_t slot) {
     const float radius = chunk->array[SPTI_VALUE][slot] * chunk->array[SPTI_SCALE][slot];
     const float t = chunk->array[SPTI_T][slot];
-    return fabsf(radius) < spti_tolerance(call, chunk, slot, t);
+    return fabsf(radius) < tolerance_at(call, chunk, slot, t);
 }
 
-uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count, uint16_t *extra) {
+/* Makes one step of a ray that is within the tolerance. Returns whether there is a sample to ask
+ * for, in place `to`; otherwise nothing is ahead, or the budget ends here. */
+static int walk(const spti_call *call, spti_chunk *chunk, size_t slot, uint32_t steps, size_t to) {
+    const float t = chunk->array[SPTI_T][slot];
+    const float next = t + tolerance_at(call, chunk, slot, t);
+    if (!(next > t) || !(next <= chunk->array[SPTI_T_MAX][slot])) {
+        chunk->array[SPTI_VALUE][slot] = INFINITY; /* nothing ahead: a miss */
+        return 0;
+    }
+    if (steps + 1 >= call->settings.budget) return 0;
+    chunk->array[SPTI_T][slot] = chunk->array[SPTI_PROBE][slot] = next;
+    place_point(chunk, slot, to, next);
+    return 1;
+}
+
+uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count) {
     unsigned char walking[SPT_BATCH];
     size_t walkers = 0;
     uint32_t steps = 0;
@@ -47,31 +60,19 @@ uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count,
         chunk->array[SPTI_VALUE][slot] = chunk->distance[slot];
         if (within_tolerance(call, chunk, slot)) walking[walkers++] = (unsigned char)slot;
     }
-    while (walkers > 0 && steps + 1 < call->settings.budget && steps < UINT16_MAX) {
-        size_t asked = 0;
+    for (; walkers > 0 && steps < call->settings.budget; ++steps) {
+        size_t asked = 0, still = 0;
         for (size_t i = 0; i < walkers; ++i) {
-            const size_t slot = walking[i];
-            const float t = chunk->array[SPTI_T][slot];
-            const float next = t + spti_tolerance(call, chunk, slot, t);
-            if (!(next > t) || !(next <= chunk->array[SPTI_T_MAX][slot])) {
-                chunk->array[SPTI_VALUE][slot] = INFINITY; /* nothing ahead: a miss */
-                continue;
-            }
-            chunk->array[SPTI_T][slot] = chunk->array[SPTI_PROBE][slot] = next;
-            spti_place_point(chunk, slot, asked, next);
-            walking[asked++] = (unsigned char)slot;
+            if (walk(call, chunk, walking[i], steps, asked)) walking[asked++] = walking[i];
         }
-        walkers = asked;
-        if (walkers == 0) break;
-        pad_points(chunk, walkers);
-        spti_evaluate(call, chunk, walkers);
-        ++steps;
-        size_t still = 0;
-        for (size_t i = 0; i < walkers; ++i) {
+        if (asked == 0) break;
+        pad_points(chunk, asked);
+        spti_evaluate(call, chunk, asked);
+        for (size_t i = 0; i < asked; ++i) {
             const size_t slot = walking[i];
             chunk->array[SPTI_VALUE][slot] = chunk->distance[i];
-            extra[(size_t)chunk->array[SPTI_INDEX][slot]] = (uint16_t)steps;
-            if (within_tolerance(call, chunk, slot)) walking[still++] = (unsigned char)slot;
+            spti_set_spent(chunk, slot, steps + 1);
+            if (within_tolerance(call, chunk, slot)) walking[still++] = walking[i];
         }
         walkers = still;
     }
@@ -114,16 +115,16 @@ static float split(spti_chunk *chunk, size_t slot, uint32_t turn) {
     return point > low ? (point < high ? point : high) : low;
 }
 
-/* Ends a bracket; the outcome's t and f stand in the slot. */
-static void leave(const spti_call *call, spti_chunk *chunk, size_t slot, size_t first,
-                  spt_outcome outcome) {
+/* Ends a bracket; the outcome's t and f stand in the slot. In a frame of its own, off the way to the
+ * callback. */
+static SPTI_NOINLINE void leave(const spti_call *call, spti_chunk *chunk, size_t slot, size_t first,
+                                spt_outcome outcome) {
     spti_leavers alone;
     alone.count = 1;
-    alone.extra = NULL; /* counted in already */
+    alone.age = 0; /* the passes were counted in when it was set aside */
     alone.steep = 1;
     alone.slots[0] = (uint16_t)slot;
     alone.outcomes[0] = (unsigned char)outcome;
-    memcpy(&alone.evaluations, &chunk->array[SPTI_PENDING_VALUE][slot], sizeof(uint32_t));
     spti_write_hits(call, chunk, &alone, first);
 }
 
@@ -131,19 +132,17 @@ static void leave(const spti_call *call, spti_chunk *chunk, size_t slot, size_t 
 static int goes_on(const spti_call *call, spti_chunk *chunk, size_t slot, size_t first,
                    uint32_t turn, float t) {
     const float a = chunk->array[SPTI_T][slot], b = *bracket_end(chunk, slot);
-    uint32_t evaluations;
-    memcpy(&evaluations, &chunk->array[SPTI_PENDING_VALUE][slot], sizeof evaluations);
-    if (b - a <= spti_tolerance(call, chunk, slot, a) || !(t > a && t < b) ||
+    if (b - a <= tolerance_at(call, chunk, slot, a) || !(t > a && t < b) ||
         turn == SPTI_BRACKET_EVALUATIONS) {
         leave(call, chunk, slot, first, SPT_HIT);
         return 0;
     }
-    if (evaluations >= call->settings.budget) {
+    const uint32_t spent = spti_spent(chunk, slot);
+    if (spent >= call->settings.budget) {
         leave(call, chunk, slot, first, SPT_LIMIT);
         return 0;
     }
-    ++evaluations;
-    memcpy(&chunk->array[SPTI_PENDING_VALUE][slot], &evaluations, sizeof evaluations);
+    spti_set_spent(chunk, slot, spent + 1);
     return 1;
 }
 
@@ -152,7 +151,7 @@ static int narrow(const spti_call *call, spti_chunk *chunk, size_t slot, size_t 
                   float value) {
     const float radius = value * chunk->array[SPTI_SCALE][slot];
     const int number = value >= -FLT_MAX;
-    const int close = fabsf(radius) < spti_tolerance(call, chunk, slot, t);
+    const int close = fabsf(radius) < tolerance_at(call, chunk, slot, t);
     if (number && !close && radius < 0.0f) {
         *bracket_end(chunk, slot) = t;
         *bracket_end_value(chunk, slot) = value;
@@ -166,28 +165,30 @@ static int narrow(const spti_call *call, spti_chunk *chunk, size_t slot, size_t 
 }
 
 void spti_close_brackets(const spti_call *call, spti_chunk *chunk, size_t count, size_t first) {
-    uint16_t open[SPT_BATCH];
-    for (size_t i = 0; i < count; ++i) open[i] = (uint16_t)(SPTI_ROOM - 1 - i);
+    unsigned char open[SPT_BATCH]; /* slots, counted from the last */
+    for (size_t i = 0; i < count; ++i) open[i] = (unsigned char)i;
     for (uint32_t turn = 0; count > 0 && turn <= SPTI_BRACKET_EVALUATIONS; ++turn) {
         size_t asked = 0, still = 0;
         for (size_t i = 0; i < count; ++i) {
-            const size_t slot = open[i];
+            const size_t slot = SPTI_ROOM - 1u - open[i];
             const float t = split(chunk, slot, turn);
             if (!goes_on(call, chunk, slot, first, turn, t)) continue;
-            open[asked++] = (uint16_t)slot;
+            open[asked++] = open[i];
             *bracket_sample(chunk, slot) = t;
         }
         if (asked == 0) break;
         /* The points go to the front of arrays whose slots at the end are the brackets: their own
          * points are not needed, so that nothing is lost where the two meet. */
         for (size_t i = 0; i < asked; ++i) {
-            spti_place_point(chunk, open[i], i, *bracket_sample(chunk, open[i]));
+            const size_t slot = SPTI_ROOM - 1u - open[i];
+            place_point(chunk, slot, i, *bracket_sample(chunk, slot));
         }
         pad_points(chunk, asked);
         spti_evaluate(call, chunk, asked);
         for (size_t i = 0; i < asked; ++i) {
-            const float t = *bracket_sample(chunk, open[i]);
-            if (narrow(call, chunk, open[i], first, t, chunk->distance[i])) open[still++] = open[i];
+            const size_t slot = SPTI_ROOM - 1u - open[i];
+            const float t = *bracket_sample(chunk, slot);
+            if (narrow(call, chunk, slot, first, t, chunk->distance[i])) open[still++] = open[i];
         }
         count = still;
     }

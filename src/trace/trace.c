@@ -65,7 +65,7 @@ static int check_hits(const spt_hits *hits, size_t count) {
 }
 
 static void settle_wants(spti_call *call) {
-    const spt_hits *hits = &call->hits;
+    const spt_hits *hits = call->hits;
     const int counted = call->statistics != NULL;
     if (hits->candidate_t.first != NULL || hits->candidate_ratio.first != NULL) {
         call->wants |= SPTI_WANT_CANDIDATE;
@@ -82,6 +82,7 @@ static void settle_arrays(spti_call *call) {
         if (array == SPTI_MEMORY) held = method->memory > 0;
         if (array == SPTI_PENDING_T) held = method->pending || method->memory > 1;
         if (array == SPTI_PENDING_VALUE) held = method->pending;
+        if (array == SPTI_SPENT) held = (call->settings.flags & SPT_SKIP_START) != 0;
         if (array == SPTI_STEEPEST) held = (call->wants & SPTI_WANT_SLOPE) != 0;
         if (array == SPTI_FALLBACKS) held = (call->wants & SPTI_WANT_FALLBACKS) != 0;
         if (array == SPTI_CANDIDATE_T || array == SPTI_CANDIDATE_RATIO) {
@@ -119,8 +120,8 @@ spt_status spt_trace(const spt_field *field, const spt_settings *settings, size_
     if (count == 0) return SPT_OK;
     if (rays == NULL || hits == NULL) return SPT_BAD_ARGUMENT;
     if (!check_rays(rays, count) || !check_hits(hits, count)) return SPT_BAD_ARGUMENT;
-    call.rays = *rays;
-    call.hits = *hits;
+    call.rays = rays;
+    call.hits = hits;
     call.statistics = statistics;
     call.isa = spti_isa_choose(call.settings.max_lanes);
     settle_wants(&call);
