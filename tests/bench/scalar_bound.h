@@ -19,6 +19,15 @@ static inline float scalar_max(float a, float b) {
     return a > b ? a : b;
 }
 
+/* t moved by the part of the rounding floor that grows with it. */
+static inline float scalar_earlier(float t) {
+    return t * (t < 0.0f ? 1.0f + SCALAR_FLOOR : 1.0f - SCALAR_FLOOR);
+}
+
+static inline float scalar_later(float t) {
+    return t * (t < 0.0f ? 1.0f - SCALAR_FLOOR : 1.0f + SCALAR_FLOOR);
+}
+
 /* The largest magnitude among the coordinates of the volume. */
 static inline float scalar_bound_size(const spt_bound *bound) {
     float size = 0.0f;
@@ -31,13 +40,13 @@ static inline float scalar_bound_size(const spt_bound *bound) {
     return size;
 }
 
-static inline void scalar_box_interval(const spt_bound *bound, const spt_ray *ray, float *entry,
-                                       float *exit) {
+static inline void scalar_box_interval(const spt_bound *bound, const spt_ray *ray, float margin,
+                                       float *entry, float *exit) {
     *entry = -INFINITY;
     *exit = INFINITY;
     for (int axis = 0; axis < 3; ++axis) {
         const float origin = ray->origin[axis], direction = ray->direction[axis];
-        const float low = bound->low[axis], high = bound->high[axis];
+        const float low = bound->low[axis] - margin, high = bound->high[axis] + margin;
         if (fabsf(direction) <= 0.0f) {
             const int within = low <= origin && origin <= high;
             *entry = within ? *entry : INFINITY;
@@ -45,13 +54,13 @@ static inline void scalar_box_interval(const spt_bound *bound, const spt_ray *ra
             continue;
         }
         const float a = (low - origin) / direction, b = (high - origin) / direction;
-        *entry = scalar_max(scalar_min(a, b), *entry);
-        *exit = scalar_min(scalar_max(a, b), *exit);
+        *entry = scalar_max(scalar_earlier(scalar_min(a, b)), *entry);
+        *exit = scalar_min(scalar_later(scalar_max(a, b)), *exit);
     }
 }
 
 static inline void scalar_sphere_interval(const spt_bound *bound, const spt_ray *ray, float reach,
-                                          float *entry, float *exit) {
+                                          float margin, float *entry, float *exit) {
     float offset[3], a = 0.0f, b = 0.0f, c = 0.0f, apart = 0.0f;
     for (int axis = 0; axis < 3; ++axis) {
         offset[axis] = ray->origin[axis] - bound->center[axis];
@@ -72,26 +81,22 @@ static inline void scalar_sphere_interval(const spt_bound *bound, const spt_ray 
     const float magnitude = fabsf(b) + sqrtf(a * room);
     const float k = b < 0.0f ? magnitude : -magnitude;
     const float first = k / a, second = magnitude <= 0.0f ? 0.0f : (c - square) / k;
-    *entry = scalar_min(first, second);
-    *exit = scalar_max(first, second);
+    *entry = scalar_earlier(scalar_min(first, second)) - margin;
+    *exit = scalar_later(scalar_max(first, second)) + margin;
 }
 
 /* Narrows [t_min, t_max]. length: of the direction; reach: the largest magnitude in the origin. */
 static inline void scalar_narrow(const spt_bound *bound, const spt_ray *ray, float length,
                                  float reach, float *t_min, float *t_max) {
+    const float margin = SCALAR_FLOOR * (reach + scalar_bound_size(bound));
     float entry, exit;
     if (bound->kind == SPT_BOUND_SPHERE) {
-        scalar_sphere_interval(bound, ray, reach, &entry, &exit);
+        scalar_sphere_interval(bound, ray, reach, margin / length, &entry, &exit);
     } else {
-        scalar_box_interval(bound, ray, &entry, &exit);
+        scalar_box_interval(bound, ray, margin, &entry, &exit);
     }
-    if (exit < entry) {
-        *t_max = -INFINITY;
-        return;
-    }
-    const float at_0 = (reach + scalar_bound_size(bound)) / length;
-    *t_min = scalar_max(entry - SCALAR_FLOOR * (at_0 + fabsf(entry)), *t_min);
-    *t_max = scalar_min(exit + SCALAR_FLOOR * (at_0 + fabsf(exit)), *t_max);
+    *t_min = scalar_max(entry, *t_min);
+    *t_max = scalar_min(exit, *t_max);
 }
 
 #endif
