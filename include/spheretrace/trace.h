@@ -17,7 +17,8 @@
  * in a call, and for every compiler, as long as the callback's are. No memory is allocated, nothing
  * global is written, the control bits of the floating-point environment are left alone. Functions may be called from any
  * number of threads at once, and from inside callbacks; a level of recursion takes at most 32 KiB
- * of stack besides the callback's own. */
+ * of stack besides the callback's own. Callers keep the stack aligned as the platform's ABI demands
+ * (16 bytes on x86-64). */
 #ifndef SPHERETRACE_TRACE_H
 #define SPHERETRACE_TRACE_H
 

@@ -47,6 +47,23 @@ static float scene_test_rays(const scene *shown) {
     return pixel_radius;
 }
 
+/* The columns and sinks of views, in the order of spt_ray and spt_hit. */
+static void list_columns(spt_rays *view, spt_column *columns_of[8]) {
+    for (int axis = 0; axis < 3; ++axis) {
+        columns_of[axis] = &view->origin[axis];
+        columns_of[4 + axis] = &view->direction[axis];
+    }
+    columns_of[3] = &view->t_min;
+    columns_of[7] = &view->t_max;
+}
+
+static void list_sinks(spt_hits *hits, spt_sink *sinks[9]) {
+    spt_sink *const all[] = {&hits->t,           &hits->residual,        &hits->outcome,
+                             &hits->evaluations, &hits->flags,           &hits->component,
+                             &hits->candidate_t, &hits->candidate_ratio, &hits->fallbacks};
+    memcpy(sinks, all, sizeof all);
+}
+
 /* Layouts of the views. Each loads the first count rays, traces them and brings the hits back. */
 typedef spt_status trace_fn(const spt_field *field, const spt_settings *settings, size_t count);
 
@@ -62,12 +79,10 @@ static spt_status trace_arrays(const spt_field *field, const spt_settings *setti
     static uint32_t out[9][most + stray];
     spt_rays view;
     spt_hits hits;
-    spt_column *const read[] = {&view.origin[0],    &view.origin[1],    &view.origin[2],
-                                &view.t_min,        &view.direction[0], &view.direction[1],
-                                &view.direction[2], &view.t_max};
-    spt_sink *const write[] = {&hits.t,           &hits.residual,        &hits.outcome,
-                               &hits.evaluations, &hits.flags,           &hits.component,
-                               &hits.candidate_t, &hits.candidate_ratio, &hits.fallbacks};
+    spt_column *read[8];
+    spt_sink *write[9];
+    list_columns(&view, read);
+    list_sinks(&hits, write);
     memset(&view, 0, sizeof view);
     for (size_t i = 0; i < count; ++i) {
         float values[8];
@@ -97,12 +112,10 @@ static spt_status trace_backwards(const spt_field *field, const spt_settings *se
     if (count == 0) return trace_structures(field, settings, 0);
     spt_rays view = spt_rays_of(rays + count - 1);
     spt_hits hits = spt_hits_of(found + count - 1);
-    spt_column *const read[] = {&view.origin[0],    &view.origin[1],    &view.origin[2],
-                                &view.t_min,        &view.direction[0], &view.direction[1],
-                                &view.direction[2], &view.t_max};
-    spt_sink *const write[] = {&hits.t,           &hits.residual,        &hits.outcome,
-                               &hits.evaluations, &hits.flags,           &hits.component,
-                               &hits.candidate_t, &hits.candidate_ratio, &hits.fallbacks};
+    spt_column *read[8];
+    spt_sink *write[9];
+    list_columns(&view, read);
+    list_sinks(&hits, write);
     for (int column = 0; column < 8; ++column) read[column]->stride *= -1;
     for (int sink = 0; sink < 9; ++sink) write[sink]->stride *= -1;
     return spt_trace(field, settings, count, &view, &hits, NULL);
@@ -208,9 +221,8 @@ static void parity_absent_sinks(void) {
         for (unsigned wanted = 0; wanted < 512; ++wanted) {
             const spt_rays view = spt_rays_of(rays);
             spt_hits hits = spt_hits_of(found);
-            spt_sink *const sinks[] = {&hits.t,           &hits.residual,        &hits.outcome,
-                                       &hits.evaluations, &hits.flags,           &hits.component,
-                                       &hits.candidate_t, &hits.candidate_ratio, &hits.fallbacks};
+            spt_sink *sinks[9];
+            list_sinks(&hits, sinks);
             memset(found, 0x5a, sizeof found);
             for (int sink = 0; sink < 9; ++sink) {
                 if (!(wanted >> sink & 1)) sinks[sink]->first = NULL;

@@ -4,30 +4,15 @@
  * result must satisfy is in stress_contract.c. */
 #include "stress.h"
 
+#include "rules.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 const uint32_t stress_widths[STRESS_WIDTHS] = {1, 4, 8, 16};
 
-enum { methods = 6, forms = 2, ways_of_a_method = STRESS_WIDTHS * forms };
-
-static const spt_method *method_at(int index) {
-    switch (index) {
-    case 0:
-        return spt_basic();
-    case 1:
-        return spt_relaxed();
-    case 2:
-        return spt_enhanced();
-    case 3:
-        return spt_auto_relaxed();
-    case 4:
-        return spt_adaptive();
-    default:
-        return spt_convex();
-    }
-}
+enum { forms = 2, ways_of_a_method = STRESS_WIDTHS * forms };
 
 stress_way stress_ways(uint32_t selection) {
     stress_way way;
@@ -64,15 +49,17 @@ static void say_missing_widths(void) {
 int stress_next(stress_way *way) {
     close_way(way);
     say_missing_widths();
-    for (++way->place; way->place < methods * ways_of_a_method; ++way->place) {
+    for (++way->place; way->place < rule_count * ways_of_a_method; ++way->place) {
         const int method = way->place / ways_of_a_method;
         const uint32_t lanes = stress_widths[way->place / forms % STRESS_WIDTHS];
         const int point = way->place % forms;
-        if (method == methods - 1 && (way->selection & STRESS_CONVEX) == 0) continue;
+        if (!rule_allowed(&rules[method], way->selection & STRESS_CONVEX ? SPT_FIELD_CONVEX : 0)) {
+            continue;
+        }
         if ((int)lanes > spt_lanes()) continue;
         if (point && (way->selection & (STRESS_BATCH | STRESS_ONCE)) != 0) continue;
         if ((int)lanes != spt_lanes() && (way->selection & STRESS_ONCE) != 0) continue;
-        way->method = method_at(method);
+        way->method = rules[method].method();
         way->name = spt_method_name(way->method);
         way->lanes = lanes;
         way->point = point;

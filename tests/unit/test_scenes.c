@@ -8,6 +8,7 @@
 #include "scenes/scene_deformed.h"
 #include "scenes/scenes.h"
 #include "scenes/village.h"
+#include "test_scenes.h"
 
 #include <math.h>
 #include <string.h>
@@ -54,17 +55,6 @@ static void draw(const scene *shown, double point[3]) {
     for (int axis = 0; axis < 3; ++axis) {
         point[axis] = (double)(float)check_uniform(low[axis], high[axis]);
     }
-}
-
-static double reference_at(const scene *shown, const double point[3]) {
-    double distance;
-    shown->reference(1, &point[0], &point[1], &point[2], &distance);
-    return distance;
-}
-
-static double apart(const double a[3], const double b[3]) {
-    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-    return sqrt(x * x + y * y + z * z);
 }
 
 /* Points of the region, and at the front those where zeros and signs go wrong. */

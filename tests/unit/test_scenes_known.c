@@ -7,22 +7,12 @@
 #include "scenes/scene_boxes.h"
 #include "scenes/scene_mandelbulb.h"
 #include "scenes/scenes.h"
+#include "test_scenes.h"
 
 #include <math.h>
 #include <string.h>
 
 static const double unit_roundoff = 5.9604644775390625e-8; /* 2^-24 */
-
-static double reference_at(const scene *shown, const double point[3]) {
-    double distance;
-    shown->reference(1, &point[0], &point[1], &point[2], &distance);
-    return distance;
-}
-
-static double apart(const double a[3], const double b[3]) {
-    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-    return sqrt(x * x + y * y + z * z);
-}
 
 /* A random point of [-reach, reach]^3, its coordinates floats. */
 static void draw(double reach, double point[3]) {
