@@ -62,10 +62,10 @@ static inline spt_bound spt_bound_box(float low_x, float low_y, float low_z, flo
  *   t_min, t_max       t_min >= 0 and finite, t_max may be +infinity; in units of the direction
  *   entry, exit        receive the interval; for a ray that stays outside entry = +infinity and
  *                      exit = -infinity. Neither may be NULL
- * The interval is closed (a ray that touches is inside) and never narrower than the true one: it is
- * widened at both ends by the rounding floor 2^-22 (|origin|_inf + |direction| t + extent of the
- * volume), in world length, and a sphere's radius grows by 2^-22 (|origin|_inf + |origin - center|),
- * since a grazing chord is sensitive to it. Coordinates below 1e19, radii above 1e-18. A face that contains the ray is no special case: nothing multiplies 0 by infinity.
+ * The interval is closed (a ray that touches is inside) and never narrower than the true one. The
+ * faces of a box move out by 2^-22 (|origin|_inf + largest coordinate of the volume), a sphere's
+ * radius grows by 2^-22 (|origin|_inf + |origin - center|), and then both ends by the rounding floor:
+ * 2^-22 t, and for a sphere 2^-22 (|origin|_inf + largest coordinate) of world length. Coordinates below 1e19, radii above 1e-18. A face that contains the ray is no special case: nothing multiplies 0 by infinity.
  * Returns SPT_BAD_ARGUMENT for a bad volume, a NULL pointer or a ray outside these ranges.
  * Cost: one division per axis, or one square root and three divisions.
  * Algorithms: the slab method by division, and the centre form of the ray-sphere discriminant

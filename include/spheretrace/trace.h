@@ -39,7 +39,7 @@ extern "C" {
  *   t_max   +infinity for a ray without end; absent: +infinity. The library lowers it so far that
  *           positions stay finite
  *   path    world length already travelled when the ray starts, >= 0, so that secondary rays
- *           inherit the pixel cone; absent: 0
+ *           inherit the pixel cone; counts up to 2^126; absent: 0
  *   active  0: leave this ray's results as they are and do not look at it; absent: all active */
 typedef struct spt_rays {
     spt_column origin[3], direction[3], t_min, t_max, path, active;

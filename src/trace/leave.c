@@ -2,6 +2,7 @@
  *
  * Writes the results of rays that leave a chunk, column by column: what is absent is asked once a
  * column and not once a ray, and no branch depends on how a ray ended. */
+#include <float.h>
 #include <math.h>
 
 #include "../base/arguments.h"
@@ -123,7 +124,8 @@ static void count_in(const spti_call *call, const spti_chunk *chunk, const spti_
     statistics->rays += leavers->count;
     for (size_t i = 0; i < leavers->count; ++i) {
         const size_t slot = leavers->slots[i];
-        const float slope = chunk->array[SPTI_STEEPEST][slot] * call->field.lipschitz;
+        const float product = chunk->array[SPTI_STEEPEST][slot] * call->field.lipschitz;
+        const float slope = product < FLT_MAX ? product : FLT_MAX;
         statistics->outcomes[leavers->outcomes[i]] += 1;
         statistics->fallbacks += (uint64_t)chunk->array[SPTI_FALLBACKS][slot];
         if (slope > statistics->largest_slope) statistics->largest_slope = slope;

@@ -72,6 +72,7 @@ SPTI_INLINE spt_wide prepare_units(prepare_rays *rays) {
     spt_wide t_max = spt_select(rays->good, spt_mul(rays->t_max, power), zero);
     t_min = spt_select(spt_less(zero, rays->t_min), spt_max(t_min, tiny), t_min);
     t_max = spt_select(spt_less(t_max, tiny), spt_min(t_max, zero), t_max);
+    t_max = spt_select(spt_less(rays->t_max, zero), spt_splat(-1.0f), t_max);
     spt_wide limit = spt_min(spt_splat(FLT_MAX / 4), spt_sub(most, ray->reach));
     limit = spt_div(spt_mul(limit, spt_splat(1.0f - 0x1p-20f)), ray->length);
     limit = spt_min(limit, spt_mul(most, spt_min(power, one)));

@@ -223,12 +223,13 @@ static float plate_distance(void *user, float x, float y, float z) {
     return sqrtf(p * p + q * q + c * c);
 }
 
-/* Rays to the rim x = 1 from many distances and slopes, and along the edge by y: those that meet the
- * plate in double. */
+/* A ray to the rim x = 1, from some distance and slope; half of them askew. Whether it meets the
+ * plate in double, which of every such ray is decided by its last bits. */
 static int rim_ray(int i, spt_ray *ray) {
     const int skew = i & 1;
-    const float dx = skew ? 0.3f : (float)check_uniform(-0.5, 0.5), dy = skew ? 0.01f : 0.0f;
-    const float oz = skew ? 0.0f : (float)check_uniform(0, 5);
+    const float dx = (float)check_uniform(-0.5, 0.5);
+    const float dy = skew ? (float)check_uniform(-0.5, 0.5) : 0.0f;
+    const float oz = (float)check_uniform(0, 5);
     const double t = 10 - (double)oz, y = skew ? check_uniform(-1, 1) : 0;
     const float ox = (float)(1 - t * (double)dx), oy = (float)(y - t * (double)dy);
     const spt_ray made = {{ox, oy, oz}, 0, {dx, dy, 1}, (float)INFINITY};
