@@ -285,7 +285,8 @@ install: all
 	install -m 644 $(STATIC) $(SHARED) $(DESTDIR)$(LIBDIR)
 	ln -sf libspheretrace.so.$(VERSION) $(DESTDIR)$(LIBDIR)/libspheretrace.so.$(MAJOR)
 	ln -sf libspheretrace.so.$(MAJOR) $(DESTDIR)$(LIBDIR)/libspheretrace.so
-	sed -e 's|@PREFIX@|$(PREFIX)|; s|@LIBDIR@|$(LIBDIR)|; s|@INCLUDEDIR@|$(INCLUDEDIR)|' \
+	sed -e 's|@PREFIX@|$(PREFIX)|; s|@LIBDIR@|$(LIBDIR:$(PREFIX)/%=$${prefix}/%)|' \
+	  -e 's|@INCLUDEDIR@|$(INCLUDEDIR:$(PREFIX)/%=$${prefix}/%)|' \
 	  -e 's|@VERSION@|$(VERSION)|' src/package/spheretrace.pc.in \
 	  > $(DESTDIR)$(LIBDIR)/pkgconfig/spheretrace.pc
 

@@ -64,8 +64,10 @@ static inline spt_bound spt_bound_box(float low_x, float low_y, float low_z, flo
  *                      exit = -infinity. Neither may be NULL
  * The interval is closed (a ray that touches is inside) and never narrower than the true one. The
  * faces of a box move out by 2^-22 (|origin|_inf + largest coordinate of the volume), a sphere's
- * radius grows by 2^-22 (|origin|_inf + |origin - center|), and then both ends by the rounding floor:
- * 2^-22 t, and for a sphere 2^-22 (|origin|_inf + largest coordinate) of world length. Coordinates below 1e19, radii above 1e-18. A face that contains the ray is no special case: nothing multiplies 0 by infinity.
+ * radius grows by 2^-22 (|origin|_inf + |origin - center|), and then both ends by the rounding
+ * floor: 2^-22 t, and for a sphere 2^-22 (|origin|_inf + largest coordinate) of world length.
+ * Coordinates below 1e19, radii above 1e-18. A face that contains the ray is no special case:
+ * nothing multiplies 0 by infinity.
  * Returns SPT_BAD_ARGUMENT for a bad volume, a NULL pointer or a ray outside these ranges.
  * Cost: one division per axis, or one square root and three divisions.
  * Algorithms: the slab method by division, and the centre form of the ray-sphere discriminant

@@ -18,7 +18,8 @@
  * compile the file once for each width and choose by spt_lanes(), the width the library will use.
  * Choose by `a < b ? a : b` between two computed values only: where one side is a constant, or
  * either holds work of its own, gcc makes a branch and the loop stays scalar, without a warning.
- * shapes.h has selections that vectorise. spt_field_measure() shows whether it worked. */
+ * shapes.h has selections that vectorise. (In C++ write __restrict.) spt_field_measure() shows
+ * whether it worked: compare the same function as point and as batch. */
 #ifndef SPHERETRACE_FIELD_H
 #define SPHERETRACE_FIELD_H
 
@@ -37,8 +38,8 @@ extern "C" {
  *             for padding repeat a real one, and their distances are not read
  *   x, y, z   64-byte aligned, finite, not overlapping; may be used as scratch space
  *   distance  64-byte aligned. +infinity is legal and means that nothing is here or beyond (as does
- *             a value that divided by lipschitz exceeds FLT_MAX). NaN and -infinity end the ray with
- *             SPT_NONFINITE, and so does a value that is not written
+ *             a value that divided by lipschitz exceeds FLT_MAX). NaN and -infinity end the ray
+ *             with SPT_NONFINITE, and so does a value that is not written
  * May be called from every thread that traces, may itself trace, and may leave by longjmp or by a
  * C++ exception: the library holds nothing that would be lost. It must not depend on the place of a
  * point in the arrays; a callback compiled with -ffast-math does, and gives up the library's
@@ -87,11 +88,11 @@ typedef struct spt_field_cost {
 
 /* What one evaluation of a field costs, by the caller's clock, at points spread over its bound
  * (over [-1, 1]^3 without one). A callback that vectorised costs a fraction of its scalar loop; a
- * large ratio of the two figures means a heavy fixed cost a call.
+ * large ratio of the two figures means a heavy fixed cost a call (normal for a few operations).
  * Takes about 20 ms with a clock of microseconds, and as many times 16 ticks of a coarser one; it
  * gives up after 2^26 evaluations a round. Returns SPT_BAD_ARGUMENT for a bad field or a NULL
- * pointer, SPT_UNSUPPORTED for a clock that stands still or is too coarse; cost is written only with
- * SPT_OK. */
+ * pointer, SPT_UNSUPPORTED for a clock that stands still or is too coarse; cost is written only
+ * with SPT_OK. */
 SPT_API spt_status spt_field_measure(const spt_field *field, spt_clock_fn *clock, void *clock_user,
                                      spt_field_cost *cost);
 

@@ -7,7 +7,7 @@
 
 #include "../trace/march_kernel.h"
 
-/* One function for every combination of wanted results; what is not wanted leaves no instruction. */
+/* One function for every combination of wanted results; what is not leaves no instruction. */
 #define INSTANCE(wants) \
     static int pass_##wants(spti_chunk *chunk, const spti_march *march, size_t count, int first) { \
         const int any = march_pass(chunk, march, count, first, wants); \

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * Where rays are inside a bounding volume. A template over SPT_LANES.
- * Defines interval_of_bound(), which narrows [t_min, t_max]; an empty interval has t_min > t_max. */
+ * Defines interval_of_bound(), which narrows [t_min, t_max]; where empty, t_min > t_max. */
 #ifndef SPTI_INTERVAL_KERNEL_H
 #define SPTI_INTERVAL_KERNEL_H
 

@@ -8,8 +8,8 @@
  *     rule_probes        1: its steps may exceed the certified radius and must be tested
  *     rule_pending       1: a rejected probe is kept, and reached when a later sphere meets its own
  *     rule_memory        floats it keeps a ray: 0 to 2, at most 1 with rule_pending
- *     rule_blends        1: its memory adds to the one before, so it is shown every certified sample;
- *                        0: only the last pair of samples matters to it
+ *     rule_blends        1: its memory adds to the one before, so that it must see every certified
+ *                        sample; 0: only the last pair of samples matters to it
  *     rule_needs_convex  1: legal only for fields with SPT_FIELD_CONVEX
  *     rule_start(...)    the memory of a ray with one sample
  *     rule_step(...)     the step it would like to make

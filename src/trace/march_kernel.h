@@ -118,7 +118,7 @@ SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays 
     step = spt_max(spt_min(step, spt_sub(rays->t_max, ray->t)), ray->radius);
     step = spt_select(rejected, ray->radius, step);
     if (rule_pending) {
-        /* A probe beyond where the pending sphere begins would be certified by it, or not at all. */
+        /* A probe beyond where the pending sphere begins is certified by that or not at all. */
         const spt_wide pending_radius = spt_mul(ray->pending_value, rays->scale);
         const spt_wide begins = spt_sub(ray->pending_t, pending_radius);
         const spt_mask pending = spt_less(ray->t, ray->pending_t);
@@ -140,8 +140,8 @@ typedef struct march_sample {
 /* A probe beyond the certified sphere counts only if its own sphere reaches back; what else it
  * shows, even NaN, is no event. (-infinity from inside looks like a large radius, hence legal.) A
  * probe that lands inside the surface could end the ray at t + radius with a bound of the residual;
- * but a hit's residual is f at the hit, and the evaluation that this costs is rare: one scene of ten
- * took 8.97 evaluations a ray instead of 8.95, the others the same. */
+ * but a hit's residual is f at the hit, and the evaluation that this costs is rare: one scene of
+ * ten took 8.97 evaluations a ray instead of 8.95, the others the same. */
 SPTI_INLINE void march_judge(const march_constants *all, const march_rays *rays,
                              const march_state *ray, march_sample *sample) {
     const spt_wide zero = spt_splat(0.0f), step = spt_sub(sample->t, ray->t);

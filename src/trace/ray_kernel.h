@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The laws of a ray in a chunk: its points, and what counts as reached. A template over SPT_LANES. */
+ * The laws of a ray in a chunk: its points, and what counts as reached. A template over
+ * SPT_LANES. */
 #ifndef SPTI_RAY_KERNEL_H
 #define SPTI_RAY_KERNEL_H
 

@@ -115,8 +115,8 @@ static float split(spti_chunk *chunk, size_t slot, uint32_t turn) {
     return point > low ? (point < high ? point : high) : low;
 }
 
-/* Ends a bracket; the outcome's t and f stand in the slot. In a frame of its own, off the way to the
- * callback. */
+/* Ends a bracket; the outcome's t and f stand in the slot. In a frame of its own, off the way to
+ * the callback. */
 static SPTI_NOINLINE void leave(const spti_call *call, spti_chunk *chunk, size_t slot, size_t first,
                                 spt_outcome outcome) {
     spti_leavers alone;
