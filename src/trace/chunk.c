@@ -119,14 +119,12 @@ static SPTI_NOINLINE size_t set_brackets_aside(const spti_call *call, spti_chunk
     return remain;
 }
 
-/* The outcome that the fates of a group give a ray, without a branch; a finished one that is in no
- * mask stalled. */
-static unsigned char outcome_of(const spti_fates *fates, unsigned bit) {
-    const unsigned hit = (fates->hit & bit) != 0, nonfinite = (fates->nonfinite & bit) != 0;
-    const unsigned missed = (fates->missed & bit) != 0, bad = (fates->bad & bit) != 0;
-    const unsigned stalled = (hit | nonfinite | missed | bad) ^ 1u;
-    return (unsigned char)(hit * SPT_HIT | nonfinite * SPT_NONFINITE | bad * SPT_BAD_RAY |
-                           stalled * SPT_LIMIT);
+/* Lists the rays of a group that a mask has. */
+static void list(spti_leavers *leavers, size_t group, unsigned mask, spt_outcome outcome) {
+    for (; mask != 0; mask &= mask - 1) {
+        leavers->slots[leavers->count] = (uint16_t)(group * SPTI_GROUP + spti_lowest_bit(mask));
+        leavers->outcomes[leavers->count++] = (unsigned char)outcome;
+    }
 }
 
 /* Writes out the finished rays and closes the gaps; returns how many rays go on. Brackets are set
@@ -141,12 +139,14 @@ static size_t empty_finished(const spti_call *call, spti_chunk *chunk, size_t co
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         const spti_fates *fates = &chunk->fates[group];
         const unsigned ended = fates->finished & ~(unsigned)fates->bracketed;
+        const unsigned hit = fates->hit & ended, missed = fates->missed & ended & ~hit;
+        const unsigned nonfinite = fates->nonfinite & ended, bad = fates->bad & ended;
         bracketed |= fates->finished & fates->bracketed;
-        for (unsigned left = ended; left != 0; left &= left - 1) {
-            const size_t slot = group * SPTI_GROUP + spti_lowest_bit(left);
-            leavers.slots[leavers.count] = (uint16_t)slot;
-            leavers.outcomes[leavers.count++] = outcome_of(fates, left & (0u - left));
-        }
+        list(&leavers, group, hit, SPT_HIT);
+        list(&leavers, group, missed, SPT_MISS);
+        list(&leavers, group, nonfinite, SPT_NONFINITE);
+        list(&leavers, group, bad, SPT_BAD_RAY);
+        list(&leavers, group, ended & ~(hit | missed | nonfinite | bad), SPT_LIMIT); /* stalled */
     }
     spti_write_hits(call, chunk, &leavers, first);
     if (bracketed) return set_brackets_aside(call, chunk, count, age, brackets);

@@ -35,6 +35,7 @@ SPTI_INLINE size_t compact_pass(spti_chunk *chunk, const unsigned char *arrays, 
         moves[last].to = (uint16_t)remain;
         remain += compact_bits(keep);
     }
+    if (remain == 0) return 0;
     for (size_t i = 0; i < array_count; ++i) {
         float *const array = chunk->array[arrays[i]];
         for (size_t move = first; move < last; ++move) {
