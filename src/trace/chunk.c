@@ -121,10 +121,13 @@ static SPTI_NOINLINE size_t set_brackets_aside(const spti_call *call, spti_chunk
 
 /* Lists the rays of a group that a mask has. */
 static void list(spti_leavers *leavers, size_t group, unsigned mask, spt_outcome outcome) {
-    for (; mask != 0; mask &= mask - 1) {
-        leavers->slots[leavers->count] = (uint16_t)(group * SPTI_GROUP + spti_lowest_bit(mask));
-        leavers->outcomes[leavers->count++] = (unsigned char)outcome;
+    size_t count = leavers->count;
+    for (unsigned bit; mask != 0; mask ^= 1u << bit) {
+        bit = spti_lowest_bit(mask);
+        leavers->slots[count] = (uint16_t)(group * SPTI_GROUP + bit);
+        leavers->outcomes[count++] = (unsigned char)outcome;
     }
+    leavers->count = count;
 }
 
 /* Writes out the finished rays and closes the gaps; returns how many rays go on. Brackets are set

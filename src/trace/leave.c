@@ -17,15 +17,15 @@ typedef struct leave_column {
     ptrdiff_t stride;
 } leave_column;
 
-static int wanted(const spt_sink *sink, size_t first, leave_column *column) {
-    if (sink->first == NULL) return 0;
-    column->stride = sink->stride;
-    column->base = (char *)sink->first + (ptrdiff_t)first * sink->stride;
-    return 1;
+/* base is NULL where the sink is absent. By value, so that the compiler knows it does not change. */
+static leave_column column_of(const spt_sink *sink, size_t first) {
+    leave_column column = {sink->first, sink->stride};
+    if (column.base != NULL) column.base += (ptrdiff_t)first * column.stride;
+    return column;
 }
 
-static void write_word(const leave_column *column, unsigned char ray, const void *word) {
-    memcpy(column->base + ray * column->stride, word, 4);
+static void write_word(leave_column column, unsigned char ray, const void *word) {
+    memcpy(column.base + ray * column.stride, word, 4);
 }
 
 /* Whether t and f of the slot are the result. */
@@ -35,86 +35,96 @@ static int reached(unsigned char outcome) {
 
 static void write_place(const spti_call *call, const spti_chunk *chunk, const spti_leavers *leavers,
                         size_t first) {
-    leave_column column;
-    if (wanted(&call->hits->t, first, &column)) {
-        for (size_t i = 0; i < leavers->count; ++i) {
+    const size_t count = leavers->count;
+    const leave_column to_t = column_of(&call->hits->t, first);
+    if (to_t.base != NULL) {
+        for (size_t i = 0; i < count; ++i) {
             const size_t slot = leavers->slots[i];
             const float t = chunk->array[SPTI_T][slot] * chunk->unit[leavers->indices[i]];
             const float written = reached(leavers->outcomes[i]) ? t : INFINITY;
-            write_word(&column, leavers->rays[i], &written);
+            write_word(to_t, leavers->rays[i], &written);
         }
     }
-    if (wanted(&call->hits->residual, first, &column)) {
-        for (size_t i = 0; i < leavers->count; ++i) {
+    const leave_column to_residual = column_of(&call->hits->residual, first);
+    if (to_residual.base != NULL) {
+        for (size_t i = 0; i < count; ++i) {
             const size_t slot = leavers->slots[i];
             const float value = chunk->array[SPTI_VALUE][slot];
             const float written = reached(leavers->outcomes[i]) ? value : INFINITY;
-            write_word(&column, leavers->rays[i], &written);
+            write_word(to_residual, leavers->rays[i], &written);
         }
     }
 }
 
 static void write_end(const spti_call *call, const spti_chunk *chunk, const spti_leavers *leavers,
                       size_t first) {
-    leave_column column;
-    if (wanted(&call->hits->outcome, first, &column)) {
-        for (size_t i = 0; i < leavers->count; ++i) {
+    const size_t count = leavers->count;
+    const leave_column to_outcome = column_of(&call->hits->outcome, first);
+    if (to_outcome.base != NULL) {
+        for (size_t i = 0; i < count; ++i) {
             const int32_t outcome = leavers->outcomes[i];
-            write_word(&column, leavers->rays[i], &outcome);
+            write_word(to_outcome, leavers->rays[i], &outcome);
         }
     }
-    if (wanted(&call->hits->evaluations, first, &column)) {
-        for (size_t i = 0; i < leavers->count; ++i) {
+    const leave_column to_evaluations = column_of(&call->hits->evaluations, first);
+    if (to_evaluations.base != NULL) {
+        for (size_t i = 0; i < count; ++i) {
             const uint32_t spent = spti_spent(chunk, leavers->slots[i]);
             const uint32_t evaluations = leavers->age + spent;
-            write_word(&column, leavers->rays[i], &evaluations);
+            write_word(to_evaluations, leavers->rays[i], &evaluations);
         }
     }
-    if (wanted(&call->hits->component, first, &column)) {
-        for (size_t i = 0; i < leavers->count; ++i) {
+    const leave_column to_component = column_of(&call->hits->component, first);
+    if (to_component.base != NULL) {
+        for (size_t i = 0; i < count; ++i) {
             const int32_t component = leavers->outcomes[i] == SPT_HIT ? 0 : -1;
-            write_word(&column, leavers->rays[i], &component);
+            write_word(to_component, leavers->rays[i], &component);
         }
     }
 }
 
 static void write_candidate(const spti_call *call, const spti_chunk *chunk,
                             const spti_leavers *leavers, size_t first) {
-    leave_column column;
-    if (wanted(&call->hits->candidate_t, first, &column)) {
-        for (size_t i = 0; i < leavers->count; ++i) {
+    const size_t count = leavers->count;
+    const leave_column to_candidate_t = column_of(&call->hits->candidate_t, first);
+    if (to_candidate_t.base != NULL) {
+        for (size_t i = 0; i < count; ++i) {
             const size_t slot = leavers->slots[i];
             const int there = chunk->array[SPTI_CANDIDATE_RATIO][slot] < INFINITY;
             const float t = chunk->array[SPTI_CANDIDATE_T][slot] * chunk->unit[leavers->indices[i]];
             const float written = there ? t : INFINITY;
-            write_word(&column, leavers->rays[i], &written);
+            write_word(to_candidate_t, leavers->rays[i], &written);
         }
     }
-    if (wanted(&call->hits->candidate_ratio, first, &column)) {
-        for (size_t i = 0; i < leavers->count; ++i) {
+    const leave_column to_candidate_ratio = column_of(&call->hits->candidate_ratio, first);
+    if (to_candidate_ratio.base != NULL) {
+        for (size_t i = 0; i < count; ++i) {
             const size_t slot = leavers->slots[i];
-            write_word(&column, leavers->rays[i], &chunk->array[SPTI_CANDIDATE_RATIO][slot]);
+            write_word(to_candidate_ratio, leavers->rays[i],
+                       &chunk->array[SPTI_CANDIDATE_RATIO][slot]);
         }
     }
 }
 
 static void write_audit(const spti_call *call, const spti_chunk *chunk, const spti_leavers *leavers,
                         size_t first) {
-    leave_column column;
-    if (wanted(&call->hits->flags, first, &column)) {
-        for (size_t i = 0; i < leavers->count; ++i) {
+    const size_t count = leavers->count;
+    const leave_column to_flags = column_of(&call->hits->flags, first);
+    if (to_flags.base != NULL) {
+        for (size_t i = 0; i < count; ++i) {
             const size_t slot = leavers->slots[i];
             const int steep = leavers->steep || chunk->array[SPTI_STEEPEST][slot] > STEEP_SLOPE;
             const int inside = chunk->array[SPTI_SCALE][slot] < 0.0f;
             const uint32_t flags = (steep ? SPT_FLAG_STEEP : 0u) | (inside ? SPT_FLAG_INSIDE : 0u);
-            write_word(&column, leavers->rays[i], &flags);
+            write_word(to_flags, leavers->rays[i], &flags);
         }
     }
-    if (wanted(&call->hits->fallbacks, first, &column)) {
-        for (size_t i = 0; i < leavers->count; ++i) {
+    const leave_column to_fallbacks = column_of(&call->hits->fallbacks, first);
+    if (to_fallbacks.base != NULL) {
+        for (size_t i = 0; i < count; ++i) {
             const size_t slot = leavers->slots[i];
             const uint32_t fallbacks = (uint32_t)chunk->array[SPTI_FALLBACKS][slot];
-            write_word(&column, leavers->rays[i], &fallbacks);
+            write_word(to_fallbacks, leavers->rays[i], &fallbacks);
         }
     }
 }
