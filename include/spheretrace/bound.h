@@ -60,8 +60,8 @@ static inline spt_bound spt_bound_box(float low_x, float low_y, float low_z, flo
 /* Where the ray origin + t direction is inside the volume, cut with [t_min, t_max].
  *   origin, direction  three finite numbers each; the direction of any length but zero
  *   t_min, t_max       t_min >= 0 and finite, t_max may be +infinity; in units of the direction
- *   entry, exit        receive the interval; for a ray that stays outside entry = +infinity and
- *                      exit = -infinity. Neither may be NULL
+ *   t_in, t_out        receive the interval; for a ray that stays outside t_in = +infinity and
+ *                      t_out = -infinity. Neither may be NULL
  * The interval is closed (a ray that touches is inside) and never narrower than the true one. The
  * faces of a box move out by 2^-22 (|origin|_inf + largest coordinate of the volume), a sphere's
  * radius grows by 2^-22 (|origin|_inf + |origin - center|), and then both ends by the rounding
@@ -74,7 +74,7 @@ static inline spt_bound spt_bound_box(float low_x, float low_y, float low_z, flo
  * (Haines et al. 2019, Ray Tracing Gems, chapter 7). */
 SPT_API spt_status spt_bound_interval(const spt_bound *bound, const float origin[3],
                                       const float direction[3], float t_min, float t_max,
-                                      float *entry, float *exit);
+                                      float *t_in, float *t_out);
 
 /* The smallest axis-aligned box around the volume, for hosts that ask for one. low and high
  * receive three numbers each. Returns SPT_BAD_ARGUMENT for a bad volume or a NULL pointer. */

@@ -144,8 +144,8 @@ typedef struct spt_hit {
     uint32_t fallbacks;
 } spt_hit;
 
-/* The view of an array of spt_hit, not NULL, every result wanted. Set the first of a sink to NULL to
- * leave its work out. */
+/* The view of an array of spt_hit, not NULL, every result wanted. Set the first of a sink to NULL
+ * to leave its work out. */
 static inline spt_hits spt_hits_of(spt_hit *array) {
     spt_hits hits;
     const ptrdiff_t stride = (ptrdiff_t)sizeof *array;

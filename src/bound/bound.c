@@ -47,13 +47,13 @@ float spti_bound_size(const spt_bound *bound) {
 }
 
 spt_status spt_bound_interval(const spt_bound *bound, const float origin[3],
-                              const float direction[3], float t_min, float t_max, float *entry,
-                              float *exit) {
+                              const float direction[3], float t_min, float t_max, float *t_in,
+                              float *t_out) {
     spt_bound copy;
     interval_ray ray;
     float largest = 0.0f, square = 0.0f;
     if (bound == NULL || origin == NULL || direction == NULL) return SPT_BAD_ARGUMENT;
-    if (entry == NULL || exit == NULL || !spti_bound_copy(&copy, bound)) return SPT_BAD_ARGUMENT;
+    if (t_in == NULL || t_out == NULL || !spti_bound_copy(&copy, bound)) return SPT_BAD_ARGUMENT;
     ray.reach = 0.0f;
     for (int axis = 0; axis < 3; ++axis) {
         if (!spti_finite(origin[axis]) || !spti_finite(direction[axis])) return SPT_BAD_ARGUMENT;
@@ -72,7 +72,7 @@ spt_status spt_bound_interval(const spt_bound *bound, const float origin[3],
     ray.length = sqrtf(square);
     float from = t_min * power, to = t_max * power;
     interval_of_bound(&copy, &ray, &from, &to);
-    *entry = from <= to ? from * unit : INFINITY;
-    *exit = from <= to ? to * unit : -INFINITY;
+    *t_in = from <= to ? from * unit : INFINITY;
+    *t_out = from <= to ? to * unit : -INFINITY;
     return SPT_OK;
 }

@@ -46,11 +46,11 @@ SPTI_INLINE spt_wide interval_signed(spt_wide magnitude, spt_wide sign) {
 /* Slabs, by division: the usual multiplication by 1 / direction makes 0 * infinity of a ray that
  * lies in a face, and loses half or all of such rays. */
 SPTI_INLINE void interval_of_box(const spt_bound *bound, const interval_ray *ray, spt_wide size,
-                                 spt_wide *entry, spt_wide *exit) {
+                                 spt_wide *t_in, spt_wide *t_out) {
     const spt_wide infinity = spt_splat(INFINITY);
     const spt_wide minus_infinity = spt_splat(-INFINITY);
-    *entry = minus_infinity;
-    *exit = infinity;
+    *t_in = minus_infinity;
+    *t_out = infinity;
     for (int axis = 0; axis < 3; ++axis) {
         /* Widened a face at a time, so that a ray that touches an edge is not lost to rounding. */
         const spt_wide margin = spt_mul(spt_splat(SPTI_FLOOR), spt_add(ray->reach, size));
@@ -68,15 +68,15 @@ SPTI_INLINE void interval_of_box(const spt_bound *bound, const interval_ray *ray
         const spt_wide far = spt_select(within, infinity, minus_infinity);
         const spt_wide first = interval_earlier(spt_min(a, b)),
                        last = interval_later(spt_max(a, b));
-        *entry = spt_max(spt_select(parallel, near, first), *entry);
-        *exit = spt_min(spt_select(parallel, far, last), *exit);
+        *t_in = spt_max(spt_select(parallel, near, first), *t_in);
+        *t_out = spt_min(spt_select(parallel, far, last), *t_out);
     }
 }
 
 /* The discriminant from the ray's closest approach, which does not cancel for far or small spheres
  * as B^2 - AC does; and the second root from the product of both. */
 SPTI_INLINE void interval_of_sphere(const spt_bound *bound, const interval_ray *ray, spt_wide size,
-                                    spt_wide *entry, spt_wide *exit) {
+                                    spt_wide *t_in, spt_wide *t_out) {
     const spt_wide zero = spt_splat(0.0f), radius = spt_splat(bound->radius);
     spt_wide offset[3], a = zero, b = zero, c = zero, apart = zero;
     for (int axis = 0; axis < 3; ++axis) {
@@ -106,21 +106,21 @@ SPTI_INLINE void interval_of_sphere(const spt_bound *bound, const interval_ray *
         spt_div(spt_mul(spt_splat(SPTI_FLOOR), spt_add(ray->reach, size)), ray->length);
     const spt_wide enters = spt_sub(interval_earlier(spt_min(first, second)), margin);
     const spt_wide leaves = spt_add(interval_later(spt_max(first, second)), margin);
-    *entry = spt_select(touched, enters, spt_splat(INFINITY));
-    *exit = spt_select(touched, leaves, spt_splat(-INFINITY));
+    *t_in = spt_select(touched, enters, spt_splat(INFINITY));
+    *t_out = spt_select(touched, leaves, spt_splat(-INFINITY));
 }
 
 SPTI_INLINE void interval_of_bound(const spt_bound *bound, const interval_ray *ray, spt_wide *t_min,
                                    spt_wide *t_max) {
     const spt_wide size = spt_splat(spti_bound_size(bound));
-    spt_wide entry, exit;
+    spt_wide t_in, t_out;
     if (bound->kind == SPT_BOUND_SPHERE) {
-        interval_of_sphere(bound, ray, size, &entry, &exit);
+        interval_of_sphere(bound, ray, size, &t_in, &t_out);
     } else {
-        interval_of_box(bound, ray, size, &entry, &exit);
+        interval_of_box(bound, ray, size, &t_in, &t_out);
     }
-    *t_min = spt_max(entry, *t_min);
-    *t_max = spt_min(exit, *t_max);
+    *t_min = spt_max(t_in, *t_min);
+    *t_max = spt_min(t_out, *t_max);
 }
 
 #endif

@@ -17,7 +17,7 @@ typedef struct leave_column {
     ptrdiff_t stride;
 } leave_column;
 
-/* base is NULL where the sink is absent. By value, so that the compiler knows it does not change. */
+/* base is NULL where the sink is absent. By value: then the compiler knows it does not change. */
 static leave_column column_of(const spt_sink *sink, size_t first) {
     leave_column column = {sink->first, sink->stride};
     if (column.base != NULL) column.base += (ptrdiff_t)first * column.stride;

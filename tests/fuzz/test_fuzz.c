@@ -24,7 +24,6 @@ static void fuzz_trace_on_random_bytes(void) {
     fuzz_failed = NULL;
 }
 
-void suite_fuzz(void);
 void suite_fuzz(void) {
     RUN(fuzz_trace_on_random_bytes);
 }

@@ -182,3 +182,10 @@ void oracle_draw(drawn *out) {
         out->truth[i] = world_trace(&out->scene, &out->rays[i]);
     }
 }
+
+spt_settings oracle_drawn_settings(const drawn *d, const oracle_run *run) {
+    spt_settings settings = d->settings;
+    settings.method = run->method;
+    settings.max_lanes = run->lanes;
+    return settings;
+}

@@ -10,7 +10,7 @@
 
 /* Visits every step rule of the library at every width that runs here, and names both in the
  * context of the checks:
- *     oracle_run run = {0};
+ *     oracle_run run = oracle_first_run;
  *     while (oracle_next(&run, convex)) ... run.method, run.rule, run.lanes ...
  * convex 0 leaves out the convex rule. rule is REFERENCE_RULES where the reference has none. */
 typedef struct oracle_run {
@@ -19,6 +19,7 @@ typedef struct oracle_run {
     const spt_method *method;
     reference_rule rule;
 } oracle_run;
+static const oracle_run oracle_first_run = {0, 0, NULL, REFERENCE_BASIC};
 int oracle_next(oracle_run *run, int convex);
 
 /* The library's step rule that does the same as the reference's. */
@@ -76,5 +77,8 @@ typedef struct drawn {
     world_hit truth[drawn_rays];
 } drawn;
 void oracle_draw(drawn *out);
+
+/* Its settings with the run's rule and width. */
+spt_settings oracle_drawn_settings(const drawn *d, const oracle_run *run);
 
 #endif

@@ -259,7 +259,6 @@ static void Q20_a_plate_in_its_own_bound(void) {
     CHECK_SAY(lost == 0, "%d of %d lost", lost, meet);
 }
 
-void suite_bounds(void);
 void suite_bounds(void) {
     RUN(Q20_never_narrower_than_true);
     RUN(Q20_no_wider_than_documented);

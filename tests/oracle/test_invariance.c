@@ -12,17 +12,6 @@
 
 enum { worlds = 30 };
 
-void suite_invariance(void);
-
-static const oracle_run first_run = {0, 0, NULL, REFERENCE_BASIC};
-
-static spt_settings settings_of(const drawn *d, const oracle_run *run) {
-    spt_settings settings = d->settings;
-    settings.method = run->method;
-    settings.max_lanes = run->lanes;
-    return settings;
-}
-
 /* The hit with t and residual times powers of two; exact, and infinities stay. */
 static spt_hit scaled_hit(const spt_hit *hit, int t_power, int residual_power) {
     spt_hit scaled = *hit;
@@ -52,7 +41,7 @@ static void Q5_scene_scaled(void) {
         drawn d;
         spt_field field;
         spt_ray scaled[drawn_rays];
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         oracle_draw(&d);
         d.settings.size = (float)check_uniform(0, 100);
         field = oracle_field(&d.field, 0);
@@ -64,7 +53,7 @@ static void Q5_scene_scaled(void) {
             }
         }
         while (oracle_next(&run, 0)) {
-            spt_settings settings = settings_of(&d, &run);
+            spt_settings settings = oracle_drawn_settings(&d, &run);
             spt_hit expected[drawn_rays], hits[drawn_rays];
             d.scene.scale = 1;
             oracle_trace(&field, &settings, drawn_rays, d.rays, expected);
@@ -86,7 +75,7 @@ static void Q6_direction_scaled(void) {
         drawn d;
         spt_field field;
         spt_ray scaled[drawn_rays];
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         oracle_draw(&d);
         field = oracle_field(&d.field, 0);
         for (int ray = 0; ray < drawn_rays; ++ray) {
@@ -97,7 +86,7 @@ static void Q6_direction_scaled(void) {
             }
         }
         while (oracle_next(&run, 0)) {
-            const spt_settings settings = settings_of(&d, &run);
+            const spt_settings settings = oracle_drawn_settings(&d, &run);
             spt_hit expected[drawn_rays], hits[drawn_rays];
             oracle_trace(&field, &settings, drawn_rays, d.rays, expected);
             oracle_trace(&field, &settings, drawn_rays, scaled, hits);
@@ -126,7 +115,7 @@ static void Q7_field_scaled(void) {
         steeper_world w;
         reference_field steeper = {steeper_distance, NULL, 1};
         spt_field field, steeper_field;
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         oracle_draw(&d);
         w.field = d.field;
         w.factor = ldexp(1, power);
@@ -135,7 +124,7 @@ static void Q7_field_scaled(void) {
         field = oracle_field(&d.field, 0);
         steeper_field = oracle_field(&steeper, 0);
         while (oracle_next(&run, 0)) {
-            const spt_settings settings = settings_of(&d, &run);
+            const spt_settings settings = oracle_drawn_settings(&d, &run);
             spt_hit expected[drawn_rays], hits[drawn_rays];
             oracle_trace(&field, &settings, drawn_rays, d.rays, expected);
             oracle_trace(&steeper_field, &settings, drawn_rays, d.rays, hits);
@@ -151,11 +140,11 @@ static void Q9_budget_of_what_was_used(void) {
     for (int i = 0; i < worlds / 2; ++i) {
         drawn d;
         spt_field field;
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         oracle_draw(&d);
         field = oracle_field(&d.field, 0);
         while (oracle_next(&run, 0)) {
-            spt_settings settings = settings_of(&d, &run);
+            spt_settings settings = oracle_drawn_settings(&d, &run);
             for (int ray = 0; ray < drawn_rays / 4; ++ray) {
                 const spt_hit hit = oracle_trace_one(&field, &settings, &d.rays[ray]);
                 const uint32_t budget = settings.budget;
@@ -220,10 +209,10 @@ static void inspect(void *user, size_t n, const float *x, const float *y, const 
 static void Q10_what_the_callback_sees(void) {
     for (int i = 0; i < worlds; ++i) {
         drawn d;
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         oracle_draw(&d);
         while (oracle_next(&run, 0)) {
-            const spt_settings settings = settings_of(&d, &run);
+            const spt_settings settings = oracle_drawn_settings(&d, &run);
             const size_t count = 1 + check_random() % drawn_rays;
             inspector seen = {NULL, 0, 0, 0, 0, 0};
             spt_field field = spt_field_default();
@@ -277,13 +266,13 @@ static void Q12_company_changes_nothing(void) {
     static size_t from[crowd];
     drawn d;
     spt_field field;
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     oracle_draw(&d);
     d.settings.budget = 60;
     field = oracle_field(&d.field, 0);
     for (int i = 0; i < crowd; ++i) rays[i] = i % 3 == 0 ? world_ray() : junk_ray();
     while (oracle_next(&run, 0)) {
-        spt_settings settings = settings_of(&d, &run);
+        spt_settings settings = oracle_drawn_settings(&d, &run);
         settings.max_lanes = 1;
         for (int i = 0; run.lanes == 1 && i < crowd; ++i) {
             alone[i] = oracle_trace_one(&field, &settings, &rays[i]);

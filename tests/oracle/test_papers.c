@@ -12,13 +12,11 @@ static void check_hit(const spt_hit *hit, double t) {
     CHECK_SAY(fabs((double)hit->t - t) <= 1e-4, "%.9g for %g", (double)hit->t, t);
 }
 
-static const oracle_run first_run = {0, 0, NULL, REFERENCE_BASIC};
-
 /* Algorithm 3 starts with r = r(-1) = d = 0: 0 * (0 / 0). */
 static void P1_enhanced_starts_plain(void) {
     trail t = trail_of(trail_ball, 10, 1);
     listing in = trail_listing(&t);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     CHECK(isnan(balint_algorithm_3(&in, 1e-4f, 0.88f)));
     CHECK(in.evaluations == 1);
     while (oracle_next(&run, 0)) {
@@ -35,7 +33,7 @@ static void P1_enhanced_starts_plain(void) {
 /* Equation 1 divides by d + r(i-1) - r(i), which is 0 when the ray leaves head-on. */
 static void P2_leaving_head_on(void) {
     trail t = trail_of(trail_above, 20, 0);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     const double behind_zero = balint_printed_step(1, 1, 2.0000001, 0.88);
     CHECK(isinf(balint_printed_step(1, 1, 2, 0.88)));
     CHECK_SAY(behind_zero < -3.4e7 && behind_zero > -3.6e7, "%g", behind_zero);
@@ -65,7 +63,7 @@ static void P2_leaving_head_on(void) {
 static void P3_fallbacks_count(void) {
     trail t = trail_of(trail_wall, 10, 0.5f);
     listing in = trail_listing(&t);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     in.max_iterations = 20;
     (void)balint_algorithm_2(&in, 1e-30f, 0.9f);
     CHECK_SAY(in.evaluations == 39, "%u", in.evaluations);
@@ -87,7 +85,7 @@ static void P3_fallbacks_count(void) {
 static void P7_three_omegas(void) {
     trail t = trail_of(trail_ball, 10, 1);
     listing in = trail_listing(&t);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     (void)keinert_listing_2(&in, 0, 100, 1.2f, 1e-4f, 0);
     CHECK(fabs((double)t.z[1] - 1.2 * 9) < 1e-5);
     t.count = 0;
@@ -143,7 +141,7 @@ static void P7_three_ranges(void) {
 static void P8_sign_of_first_sample(void) {
     trail around = trail_of(trail_ball, 0, 2), ahead = trail_of(trail_ball, 10, 3);
     listing in = trail_listing(&around);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     float t = keinert_listing_2(&in, 3, 100, 1.2f, 1e-4f, 0);
     CHECK_SAY(fabs((double)t - 2) < 1e-3, "%g", (double)t); /* before t_min */
     in = trail_listing(&ahead);
@@ -164,7 +162,7 @@ static void P8_sign_of_first_sample(void) {
 static void P9_no_division_by_t(void) {
     trail behind = trail_of(trail_ball, -1, 1), ahead = trail_of(trail_ball, 10, 1);
     listing in = trail_listing(&behind);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     CHECK(isinf(keinert_listing_2(&in, 0, 100, 1.2f, 1e-4f, 0))); /* 0 / 0 at the start */
     CHECK_SAY(in.evaluations == 129, "%u", in.evaluations);
     in = trail_listing(&ahead);
@@ -183,7 +181,7 @@ static void P9_no_division_by_t(void) {
 static void P10_end_of_the_ray(void) {
     trail sphere = trail_of(trail_ball, 10, 1), far = trail_of(trail_wall, 50, 1);
     listing in = trail_listing(&sphere);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     CHECK(check_same_bits(keinert_listing_1(&in, 5, 5, 1e-4f), 5) && in.evaluations == 0);
     CHECK(check_same_bits(keinert_listing_1(&in, 0, NAN, 1e-4f), 0) && in.evaluations == 0);
     in = trail_listing(&far);
@@ -210,7 +208,7 @@ static void P11_probe_past_the_end(void) {
     trail t = trail_of(trail_slab, 1, 1.01f);
     for (int i = 0; i < 2; ++i) {
         listing in = trail_listing(&t);
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         CHECK(isinf(keinert_listing_2(&in, 0, cases[i][0], cases[i][1], 1e-4f, 0)));
         while (oracle_next(&run, 0)) {
             spt_settings settings = oracle_settings(&run);
@@ -230,7 +228,7 @@ static void P12_fallback_lands_on_r(void) {
         const double omega = (double)omegas[i];
         trail t = trail_of(trail_slab, 1, 1.01f);
         listing in = trail_listing(&t);
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         (void)keinert_listing_2(&in, 0, 100, omegas[i], 1e-4f, 0);
         /* f(o) and the start are one place, then the probe, then the fallback */
         CHECK_SAY(fabs((double)t.z[2] - omega * (2 - omega)) < 1e-6, "%g", (double)t.z[2]);
@@ -250,7 +248,7 @@ static void P13_head_on(void) {
     enum { sheets = 400 };
     trail t = trail_of(trail_wall, 1, 1);
     listing in = trail_listing(&t);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     const spt_ray ray = trail_ray(0, INFINITY);
     float places[sheets];
     int missed = 0;
@@ -287,7 +285,7 @@ static void P13_head_on(void) {
 static void P14_rearms(void) {
     trail t = trail_of(trail_passed, 100, 0);
     listing in = trail_listing(&t);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     uint32_t latched;
     int failed = 0;
     (void)keinert_listing_2(&in, 0, 200, 1.9f, 1e-6f, 0);
@@ -316,7 +314,7 @@ static void P14_rearms(void) {
 static void P15_candidate_stands_beside(void) {
     trail t = trail_of(trail_grazed, 0.1f, 0);
     listing in = trail_listing(&t);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     float forced;
     CHECK(isinf(keinert_listing_2(&in, 0, 1000, 1.2f, 1e-4f, 0)));
     forced = keinert_listing_2(&in, 0, 1000, 1.2f, 1e-4f, 1);
@@ -337,7 +335,7 @@ static void P15_candidate_stands_beside(void) {
 /* Of equal ratios the earlier counts. */
 static void P15_first_of_equals(void) {
     trail t = trail_of(trail_wall, 0, -0.5f); /* f = z / 2 */
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     while (oracle_next(&run, 0)) {
         const spt_settings settings = oracle_settings(&run);
         const spt_ray ray = trail_ray(1, 1000);
@@ -352,7 +350,7 @@ static void P15_first_of_equals(void) {
 static void P16_secondary_rays_inherit_the_cone(void) {
     trail t = trail_of(trail_wall, 0.01f, 0.5f);
     listing in = trail_listing(&t);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     static const float path = 100;
     CHECK(keinert_listing_2(&in, 0, 100, 1.2f, 1e-3f, 0) > 0.009f);
     CHECK_SAY(in.evaluations > 5, "%u", in.evaluations);
@@ -384,7 +382,7 @@ static float reversed(void *user, float x, float y, float z) {
 static void P17_bound_inside(void) {
     trail t = trail_of(reversed, -0.6f, 1.5f);
     listing in = trail_listing(&t);
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     CHECK(fabs((double)keinert_listing_1(&in, 0, 100, 1e-4f) - 3) < 1e-6);
     t.distance = trail_steep;
     while (oracle_next(&run, 0)) {

@@ -10,27 +10,17 @@
 
 enum { worlds = 50 };
 
-static const oracle_run first_run = {0, 0, NULL, REFERENCE_BASIC};
-
-/* The settings of the world with the run's rule and width. */
-static spt_settings settings_of(const drawn *d, const oracle_run *run) {
-    spt_settings settings = d->settings;
-    settings.method = run->method;
-    settings.max_lanes = run->lanes;
-    return settings;
-}
-
 typedef void property(const drawn *d, const spt_settings *settings, const spt_field *field);
 
 static void each_run(property *holds) {
     for (int i = 0; i < worlds; ++i) {
         drawn d;
         spt_field field;
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         oracle_draw(&d);
         field = oracle_field(&d.field, 0);
         while (oracle_next(&run, 0)) {
-            const spt_settings settings = settings_of(&d, &run);
+            const spt_settings settings = oracle_drawn_settings(&d, &run);
             holds(&d, &settings, &field);
         }
     }
@@ -171,14 +161,14 @@ static void Q8_nan_half_space(void) {
         cut_world w;
         reference_field cut = {cut_distance, NULL, 1};
         spt_field field;
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         oracle_draw(&d);
         w.field = d.field;
         w.cut = check_uniform(1.5, 8);
         cut.user = &w;
         field = oracle_field(&cut, 0);
         while (oracle_next(&run, 0)) {
-            const spt_settings settings = settings_of(&d, &run);
+            const spt_settings settings = oracle_drawn_settings(&d, &run);
             spt_hit hits[drawn_rays];
             oracle_trace(&field, &settings, drawn_rays, d.rays, hits);
             for (int ray = 0; ray < drawn_rays; ++ray) {
@@ -212,7 +202,7 @@ static void Q8_probe_into_minus_infinity(void) {
     const reference_field pierced = {pierced_distance, NULL, 1};
     const spt_field field = oracle_field(&pierced, 0);
     const spt_ray ray = {{0, 0, 0}, 0, {0, 0, 1}, 100};
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     while (oracle_next(&run, 0)) {
         spt_settings settings = oracle_settings(&run);
         spt_hit hit;
@@ -238,14 +228,14 @@ static void Q11_way_out_of_a_sphere(void) {
     for (int i = 0; i < 4 * worlds; ++i) {
         drawn d;
         spt_field field;
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         oracle_draw(&d);
         d.scene.count = 1;
         d.scene.has_floor = 0;
         for (int ray = 0; ray < drawn_rays; ++ray) d.rays[ray] = ray_inside(&d.scene);
         field = oracle_field(&d.field, 1);
         while (oracle_next(&run, 1)) {
-            const spt_settings settings = settings_of(&d, &run);
+            const spt_settings settings = oracle_drawn_settings(&d, &run);
             spt_hit hits[drawn_rays];
             oracle_trace(&field, &settings, drawn_rays, d.rays, hits);
             for (int ray = 0; ray < drawn_rays; ++ray) {
@@ -270,11 +260,11 @@ static void Q13_rules_agree_on_clear_hits(void) {
     for (int i = 0; i < worlds; ++i) {
         drawn d;
         spt_field field;
-        oracle_run run = first_run;
+        oracle_run run = oracle_first_run;
         oracle_draw(&d);
         field = oracle_field(&d.field, 0);
         while (oracle_next(&run, 0)) {
-            spt_settings settings = settings_of(&d, &run);
+            spt_settings settings = oracle_drawn_settings(&d, &run);
             spt_hit hits[drawn_rays];
             settings.budget = 100000;
             oracle_trace(&field, &settings, drawn_rays, d.rays, hits);
@@ -313,7 +303,7 @@ static spt_hit trace_ball(const lone_ball *ball, const spt_settings *settings, d
 /* Balls of radius 1 and 1e3 far ahead (at 1e2 to 1e8; the large one is a plane where it is met),
  * and balls of 1e-18 to 1e18 at ten times their radius. */
 static void Q14_steep_only_where_it_is(void) {
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     while (oracle_next(&run, 0)) {
         for (int power = 2; power <= 8; ++power) {
             for (int i = 0; i < 20; ++i) {
@@ -361,7 +351,7 @@ static void Q14_free_jump_is_audited(void) {
     const reference_field kinked = {kinked_distance, NULL, 1};
     const spt_field field = oracle_field(&kinked, 0);
     const spt_ray ray = {{0, 0, 0}, 0, {0, 0, 1}, 100};
-    oracle_run run = first_run;
+    oracle_run run = oracle_first_run;
     while (oracle_next(&run, 0)) {
         spt_settings settings = oracle_settings(&run);
         spt_hit hit;

@@ -11,8 +11,6 @@
 
 enum { worlds = 120, rays_a_world = 40, width = 48, height = 36, pixels = width * height };
 
-void suite_truth(void);
-
 /* As those of oracle_draw. */
 static spt_settings world_settings(void) {
     spt_settings settings = spt_settings_default();

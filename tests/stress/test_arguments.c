@@ -167,7 +167,6 @@ static void F10e_longer_structures(void) {
     for (int i = 0; i < kinds_of_structure; ++i) stress_guard_free(&guard[i]);
 }
 
-void suite_arguments(void);
 void suite_arguments(void) {
     RUN(F10a_null_pointers);
     RUN(F10b_sizes_of_structures);

@@ -123,7 +123,6 @@ static void A9_points_overwritten(void) {
     }
 }
 
-void suite_callback_arrays(void);
 void suite_callback_arrays(void) {
     RUN(A8a_result_left_unwritten);
     RUN(A8b_padded_results_spoiled);

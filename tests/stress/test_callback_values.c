@@ -277,7 +277,6 @@ static void A10b_nan_in_the_limits_of_a_bounded_ray(void) {
     }
 }
 
-void suite_callback_values(void);
 void suite_callback_values(void) {
     RUN(A1a_nan_beyond_z5);
     RUN(A1b_nan_everywhere);

@@ -215,7 +215,6 @@ static void F4c_bound_is_missed(void) {
     }
 }
 
-void suite_calls(void);
 void suite_calls(void) {
     RUN(F1_rays_in_a_face);
     RUN(F1b_ray_that_touches_a_sphere);

@@ -284,7 +284,6 @@ static void F7b_one_ray_with_any_stride(void) {
     }
 }
 
-void suite_found(void);
 void suite_found(void) {
     RUN(A5c_least_epsilon_is_met_by_zero);
     RUN(R12_path_near_the_largest_number);

@@ -331,7 +331,6 @@ static void D7b_rising_from_a_floor(void) {
     }
 }
 
-void suite_grazing(void);
 void suite_grazing(void) {
     RUN(D1_along_a_floor);
     RUN(D1b_along_a_floor_to_its_end);

@@ -343,7 +343,6 @@ static void G9_width_that_ran(void) {
 #endif
 }
 
-void suite_host(void);
 void suite_host(void) {
 #ifdef HAVE_MXCSR
     RUN(G1a_control_bits_untouched);

@@ -161,7 +161,6 @@ static void C8_a_point_callback_has_no_padding(void) {
     }
 }
 
-void suite_measure(void);
 void suite_measure(void) {
     RUN(C8_a_fine_clock);
     RUN(C8_coarse_clocks);

@@ -330,7 +330,6 @@ static void E4_never_reached(void) {
     }
 }
 
-void suite_no_bound(void);
 void suite_no_bound(void) {
     RUN(E1a_jump_over_the_sphere);
     RUN(E1b_step_into_the_sphere);

@@ -256,7 +256,6 @@ static void R11c_denormal_direction(void) {
     }
 }
 
-void suite_ray_parameters(void);
 void suite_ray_parameters(void) {
     RUN(R1_zero_direction);
     RUN(R2_component_not_finite);

@@ -310,7 +310,6 @@ static void G11_first_calls_at_once(void) {
 #endif
 }
 
-void suite_reentry(void);
 void suite_reentry(void) {
     RUN(G11_first_calls_at_once);
     RUN(G7_recursion_on_the_usual_stack);

@@ -165,7 +165,6 @@ static void C7_start_at_the_centre(void) {
     }
 }
 
-void suite_scale(void);
 void suite_scale(void) {
     RUN(C1_far_planes);
     RUN(C2_small_scene);

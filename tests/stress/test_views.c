@@ -350,7 +350,6 @@ static void F11_inactive_rays(void) {
     }
 }
 
-void suite_views(void);
 void suite_views(void) {
     RUN(F7_counts_between_guard_pages);
     RUN(F7b_no_rays_no_arrays);

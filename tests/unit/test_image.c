@@ -310,7 +310,6 @@ static void image_endings(void) {
     CHECK(image_create(0, 1, 3).pixels == NULL && image_create(1, 40000, 3).pixels == NULL);
 }
 
-void suite_image(void);
 void suite_image(void) {
     RUN(image_png_comes_back);
     RUN(image_png_is_compressed);

@@ -232,7 +232,6 @@ static void scenes_by_name(void) {
     CHECK(scene_named("no such scene") == NULL);
 }
 
-void suite_scenes_known(void);
 void suite_scenes_known(void) {
     RUN(scenes_known_distances);
     RUN(scenes_mandelbulb_without_angles);

@@ -206,7 +206,6 @@ static void loops_and_points(void) {
     }
 }
 
-void suite_shapes(void);
 void suite_shapes(void) {
     RUN(distances_by_search);
     RUN(ellipsoid_quality);
