@@ -59,9 +59,12 @@ METHODS := $(shell sed -n 's/^ *X(\([a-z_]*\)).*/\1/p' src/methods/methods.h)
 # The byte shuffle of SSSE3 serves the compaction only.
 MARCH_ISAS := $(filter-out ssse3,$(ISAS))
 
-PLAIN := $(filter-out src/backend/march.c src/backend/chunk.c src/backend/method.c,\
+# Kernels of a room that are built once for every instruction set: src/backend/NAME.c.
+KERNELS := chunk union cone
+PLAIN := $(filter-out src/backend/march.c src/backend/method.c $(KERNELS:%=src/backend/%.c),\
            $(wildcard src/*/*.c))
-OBJECTS := $(PLAIN:src/%.c=$B/src/%.o) $(ISAS:%=$B/src/backend/chunk_%.o) \
+OBJECTS := $(PLAIN:src/%.c=$B/src/%.o) \
+           $(foreach kernel,$(KERNELS),$(ISAS:%=$B/src/backend/$(kernel)_%.o)) \
            $(METHODS:%=$B/src/methods/%.o) \
            $(foreach method,$(METHODS),$(MARCH_ISAS:%=$B/src/methods/$(method)_%.o))
 
@@ -85,15 +88,14 @@ $(PLAIN:src/%.c=$B/src/%.o): $B/src/%.o: src/%.c $B/setup
 	$(call SAY,$@)
 	$(Q)$(COMPILE) -fPIC $(HAVE) $(CFLAGS) $(KEEP) -c $< -o $@
 
-# $(1) instruction set
-define chunk_object
-$B/src/backend/chunk_$(1).o: src/backend/chunk.c $B/setup
+# $(1) kernel, $(2) instruction set
+define kernel_object
+$B/src/backend/$(1)_$(2).o: src/backend/$(1).c $B/setup
 	@mkdir -p $$(@D)
 	$$(call SAY,$$@)
-	$$(Q)$$(COMPILE) -fPIC $$(HAVE) $$(flags_$(1)) -DSPTI_PREPARE=spti_prepare_$(1) \
-	  -DSPTI_COMPACT=spti_compact_$(1) $$(CFLAGS) $$(KEEP) -c $$< -o $$@
+	$$(Q)$$(COMPILE) -fPIC $$(HAVE) $$(flags_$(2)) -DSPTI_ISA=$(2) $$(CFLAGS) $$(KEEP) -c $$< -o $$@
 endef
-$(foreach isa,$(ISAS),$(eval $(call chunk_object,$(isa))))
+$(foreach kernel,$(KERNELS),$(foreach isa,$(ISAS),$(eval $(call kernel_object,$(kernel),$(isa)))))
 
 # $(1) step rule
 define method_object

@@ -9,6 +9,8 @@
 #include "base.h"
 #include "bound.h"
 #include "field.h"
+#include "frame.h"
+#include "scene.h"
 #include "shapes.h"
 #include "trace.h"
 

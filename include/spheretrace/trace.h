@@ -257,11 +257,13 @@ typedef struct spt_statistics {
     float largest_slope; /* of f seen between two samples, rounding deducted, over all calls; more
                           * than lipschitz means: no distance bound */
     uint32_t lanes;      /* the width that ran last: 1, 4, 8 or 16 */
+    uint64_t cone_evaluations; /* values asked for cones (frame.h), in none of the above */
+    uint64_t kept, culled;     /* components that tiles kept and left out, summed over tiles */
 } spt_statistics;
 
 /* All counts zero. */
 static inline spt_statistics spt_statistics_default(void) {
-    spt_statistics statistics = {0, 0, {0, 0, 0, 0, 0}, 0, 0, 0, 0, 0.0f, 0};
+    spt_statistics statistics = {0, 0, {0, 0, 0, 0, 0}, 0, 0, 0, 0, 0.0f, 0, 0, 0, 0};
     statistics.struct_size = sizeof statistics;
     return statistics;
 }

@@ -8,18 +8,19 @@
 #include "driver.h"
 
 /* Reads the picked rays of a column, or what stands for an absent one. By memcpy, since values need
- * no alignment. */
+ * no alignment. A run of rays is unrolled. */
 static void load_column(spti_chunk *chunk, int array, const spt_column *column, float absent,
-                        size_t count, size_t first, size_t window) {
+                        size_t count, size_t first, int run) {
     float *const to = chunk->array[array];
     const char *base = column->first;
     if (base != NULL) base += (ptrdiff_t)first * column->stride;
     if (base == NULL) {
         for (size_t slot = 0; slot < count; ++slot) to[slot] = absent;
-    } else if (count == window) {
+    } else if (run) {
         const ptrdiff_t stride = column->stride;
         size_t slot = 0;
-        for (; slot + 4 <= count; slot += 4) { /* unrolled: half the time */
+        base += (ptrdiff_t)chunk->picked[0] * stride;
+        for (; slot + 4 <= count; slot += 4) { /* half the time */
             const char *const from = base + (ptrdiff_t)slot * stride;
             memcpy(&to[slot], from, sizeof *to);
             memcpy(&to[slot + 1], from + stride, sizeof *to);
@@ -38,36 +39,32 @@ static void load_column(spti_chunk *chunk, int array, const spt_column *column, 
 }
 
 /* Which rays of a window are active; returns how many. */
-static size_t pick(const spt_column *active, unsigned char *picked, size_t first, size_t window) {
+static size_t pick(const spt_column *active, uint16_t *picked, size_t first, size_t window) {
     size_t count = 0;
     if (active->first == NULL) {
-        for (size_t i = 0; i < window; ++i) picked[i] = (unsigned char)i;
+        for (size_t i = 0; i < window; ++i) picked[i] = (uint16_t)i;
         return window;
     }
     for (size_t i = 0; i < window; ++i) {
         int32_t value;
         memcpy(&value, (const char *)active->first + (ptrdiff_t)(first + i) * active->stride,
                sizeof value);
-        picked[count] = (unsigned char)i;
+        picked[count] = (uint16_t)i;
         count += value != 0;
     }
     return count;
 }
 
-/* Loads the active rays of a window; returns how many. */
-static size_t load_chunk(const spti_call *call, spti_chunk *chunk, size_t first, size_t window) {
-    const spt_rays *rays = call->rays;
-    const size_t count = pick(&rays->active, chunk->picked, first, window);
-    if (count == 0) return 0;
+void spti_load_chunk(const spt_rays *rays, spti_chunk *chunk, size_t count, size_t first) {
+    const int run = chunk->picked[count - 1] - chunk->picked[0] + 1u == count; /* they ascend */
     for (int axis = 0; axis < 3; ++axis) {
-        load_column(chunk, SPTI_ORIGIN + axis, &rays->origin[axis], 0, count, first, window);
-        load_column(chunk, SPTI_DIRECTION + axis, &rays->direction[axis], 0, count, first, window);
+        load_column(chunk, SPTI_ORIGIN + axis, &rays->origin[axis], 0, count, first, run);
+        load_column(chunk, SPTI_DIRECTION + axis, &rays->direction[axis], 0, count, first, run);
     }
-    load_column(chunk, SPTI_T, &rays->t_min, 0, count, first, window);
-    load_column(chunk, SPTI_T_MAX, &rays->t_max, INFINITY, count, first, window);
-    load_column(chunk, SPTI_PATH, &rays->path, 0, count, first, window);
+    load_column(chunk, SPTI_T, &rays->t_min, 0, count, first, run);
+    load_column(chunk, SPTI_T_MAX, &rays->t_max, INFINITY, count, first, run);
+    load_column(chunk, SPTI_PATH, &rays->path, 0, count, first, run);
     for (size_t slot = 0; slot < SPT_BATCH; ++slot) chunk->array[SPTI_INDEX][slot] = (float)slot;
-    return count;
 }
 
 void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
@@ -82,6 +79,9 @@ void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
             distance[i] = call->field.point(call->field.user, x[i], y[i], z[i]);
         }
         for (size_t i = n; i < whole; ++i) distance[i] = distance[0];
+    }
+    if (call->allowance != NULL) {
+        *call->allowance -= n < *call->allowance ? n : *call->allowance;
     }
     if (call->statistics != NULL) {
         call->statistics->passes += 1;
@@ -111,16 +111,14 @@ static SPTI_NOINLINE size_t set_brackets_aside(const spti_call *call, spti_chunk
     for (size_t k = 0; k < aside; ++k) {
         const size_t to = SPTI_ROOM - 1 - *brackets - k;
         chunk->array[SPTI_PENDING_T][to] = chunk->distance[slots[k]]; /* f beyond the crossing */
-        /* Only skipped starts spend anything beside the passes; else the array is not kept. */
-        const int kept_spent = (call->settings.flags & SPT_SKIP_START) != 0;
-        spti_set_spent(chunk, to, age + (kept_spent ? spti_spent(chunk, to) : 0));
+        spti_set_spent(chunk, to, age + (spti_keeps_spent(call) ? spti_spent(chunk, to) : 0));
     }
     *brackets += aside;
     return remain;
 }
 
 /* Lists the rays of a group that a mask has. */
-static void list(spti_leavers *leavers, size_t group, unsigned mask, spt_outcome outcome) {
+static void list(spti_leavers *leavers, size_t group, unsigned mask, int outcome) {
     size_t count = leavers->count;
     for (unsigned bit; mask != 0; mask ^= 1u << bit) {
         bit = spti_lowest_bit(mask);
@@ -144,14 +142,16 @@ static size_t empty_finished(const spti_call *call, spti_chunk *chunk, size_t co
         const unsigned ended = fates->finished & ~(unsigned)fates->bracketed;
         const unsigned hit = fates->hit & ended, missed = fates->missed & ended & ~hit;
         const unsigned nonfinite = fates->nonfinite & ended, bad = fates->bad & ended;
+        const unsigned stopped = fates->stopped & ended & ~(hit | missed | nonfinite | bad);
         bracketed |= fates->finished & fates->bracketed;
         list(&leavers, group, hit, SPT_HIT);
         list(&leavers, group, missed, SPT_MISS);
         list(&leavers, group, nonfinite, SPT_NONFINITE);
         list(&leavers, group, bad, SPT_BAD_RAY);
-        list(&leavers, group, ended & ~(hit | missed | nonfinite | bad), SPT_LIMIT); /* stalled */
+        list(&leavers, group, stopped, SPTI_STOPPED);
+        list(&leavers, group, ended & ~(hit | missed | nonfinite | bad | stopped), SPT_LIMIT);
     }
-    spti_write_hits(call, chunk, &leavers, first);
+    call->leave(call, chunk, &leavers, first);
     if (bracketed) return set_brackets_aside(call, chunk, count, age, brackets);
     return spti_chunk_kernels_of[call->isa].compact(chunk, call->arrays, call->array_count, count);
 }
@@ -198,31 +198,58 @@ static int expire(const spti_call *call, spti_chunk *chunk, size_t count, uint32
     return any;
 }
 
-/* Marches the rays until all have left; each pass is an evaluation of each. */
-static void march_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size_t first) {
+/* Sets all rays aside that are not finished. */
+static void stop_all(spti_chunk *chunk, size_t count) {
+    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
+        const size_t left = count - group * SPTI_GROUP;
+        const unsigned rays = left < SPTI_GROUP ? (1u << left) - 1u : 0xffffu;
+        chunk->fates[group].stopped |= (uint16_t)(rays & ~(unsigned)chunk->fates[group].finished);
+        chunk->fates[group].finished = (uint16_t)rays;
+    }
+}
+
+static uint32_t most_spent_of(const spti_call *call, const spti_chunk *chunk, size_t count) {
+    uint32_t most = 0;
+    if (!spti_keeps_spent(call)) return 0;
+    for (size_t slot = 0; slot < count; ++slot) {
+        const uint32_t spent = spti_spent(chunk, slot);
+        most = spent > most ? spent : most;
+    }
+    return most;
+}
+
+/* Each pass is an evaluation of each ray. */
+void spti_run_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size_t first, int any,
+                      int first_pass) {
     const uint32_t flags = call->settings.flags, budget = call->settings.budget;
-    uint32_t most_spent = 0;
     size_t brackets = 0;
+    if (any) count = empty_finished(call, chunk, count, first, 0, &brackets);
+    uint32_t most_spent = most_spent_of(call, chunk, count);
     for (uint32_t age = 0; count > 0 && age < budget; ++age) {
+        const int fresh = first_pass && age == 0;
         spti_evaluate(call, chunk, count);
-        if (age == 0) {
-            if (flags & SPT_SKIP_START) most_spent = spti_skip_start(call, chunk, count);
+        if (fresh) {
+            if (flags & SPT_SKIP_START) most_spent += spti_skip_start(call, chunk, count);
             start_rays(chunk, count);
         }
-        int any = call->pass(chunk, &call->march, count, age == 0);
-        if (age == 0 && flags != 0) any = apply_start_options(call, chunk, count);
+        any = call->pass(chunk, &call->march, count, fresh);
+        if (fresh && flags != 0) any = apply_start_options(call, chunk, count);
+        if (call->stop != NULL) any = call->stop(chunk, count);
         if (budget - age - 1 <= most_spent) any |= expire(call, chunk, count, age + 1);
+        if (call->allowance != NULL && *call->allowance == 0) {
+            stop_all(chunk, count);
+            any = 1;
+        }
         if (any) count = empty_finished(call, chunk, count, first, age + 1, &brackets);
     }
     if (brackets > 0) spti_close_brackets(call, chunk, brackets, first);
 }
 
-void spti_trace_chunk(const spti_call *call, size_t first, size_t window) {
-    spti_chunk chunk;
-    size_t count = load_chunk(call, &chunk, first, window), brackets = 0;
+void spti_trace_chunk(const spti_call *call, spti_chunk *chunk, size_t first, size_t window) {
+    const size_t count = pick(&call->rays->active, chunk->picked, first, window);
     if (count == 0) return;
-    int any = spti_chunk_kernels_of[call->isa].prepare(&chunk, &call->march, count);
-    if (call->settings.budget == 0) any |= expire(call, &chunk, count, 0);
-    if (any) count = empty_finished(call, &chunk, count, first, 0, &brackets);
-    march_chunk(call, &chunk, count, first);
+    spti_load_chunk(call->rays, chunk, count, first);
+    int any = spti_chunk_kernels_of[call->isa].prepare(chunk, &call->march, count);
+    if (call->settings.budget == 0) any |= expire(call, chunk, count, 0);
+    spti_run_chunk(call, chunk, count, first, any, 1);
 }

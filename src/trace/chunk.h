@@ -52,20 +52,21 @@ enum {
     SPTI_FALLBACKS, /* exact to 2^24 */
     SPTI_CANDIDATE_T,
     SPTI_CANDIDATE_RATIO,
+    SPTI_STOP, /* the ray is set aside when it is free up to here; only in calls that stop */
     SPTI_ARRAYS
 };
 
 /* How the rays of a group ended in a pass: bit i of a mask for ray i of the group. A finished ray
- * that is in none of the other masks stalled. */
+ * that is in none of the other masks stalled, or its budget ended. */
 typedef struct spti_fates {
-    uint16_t finished, hit, missed, nonfinite, bracketed, bad;
+    uint16_t finished, hit, missed, nonfinite, bracketed, bad, stopped;
 } spti_fates;
 
 typedef struct spti_chunk {
-    SPTI_ALIGNED(64) float array[SPTI_ARRAYS][SPTI_ROOM];
+    float (*array)[SPTI_ROOM]; /* SPTI_ARRAYS of them, or as many as the call holds; aligned */
     SPTI_ALIGNED(64) float distance[SPTI_ROOM]; /* what the callback answered */
     float unit[SPT_BATCH];                      /* t of the caller = unit * t, by index */
-    unsigned char picked[SPT_BATCH];            /* which ray of the window it is, by index */
+    uint16_t picked[SPT_BATCH];                 /* which ray of the call's it is, by index */
     spti_fates fates[SPTI_GROUPS];
 } spti_chunk;
 

@@ -6,6 +6,17 @@
 
 #include "method.h"
 
+struct spti_leavers;
+struct spti_call;
+
+/* What happens to rays that leave a chunk; `first` is the number of the chunk's first ray. For
+ * SPT_NONFINITE, SPT_HIT, SPT_LIMIT and SPTI_STOPPED t and f are those of the slot. */
+typedef void spti_leave_fn(const struct spti_call *call, spti_chunk *chunk,
+                           struct spti_leavers *leavers, size_t first);
+
+/* Finds the rays that are free up to their SPTI_STOP (fates). Returns whether any ray finished. */
+typedef int spti_stop_fn(spti_chunk *chunk, size_t count);
+
 typedef struct spti_call {
     spt_field field;
     spt_bound bound;
@@ -19,7 +30,14 @@ typedef struct spti_call {
     unsigned wants;
     unsigned char arrays[SPTI_ARRAYS]; /* those that follow the rays in this call */
     size_t array_count;
+    spti_leave_fn *leave;
+    spti_stop_fn *stop;  /* NULL: rays are traced to their end */
+    uint64_t *allowance; /* evaluations until all rays are set aside, with stop; or NULL */
+    void *owner;         /* of leave */
 } spti_call;
+
+/* Beside the public outcomes: the ray is not at its end. */
+enum { SPTI_STOPPED = SPT_OUTCOMES };
 
 /* Rays that leave a chunk together. */
 typedef struct spti_leavers {
@@ -29,23 +47,53 @@ typedef struct spti_leavers {
     uint16_t slots[SPT_BATCH];
     unsigned char outcomes[SPT_BATCH];
     unsigned char indices[SPT_BATCH]; /* where they were loaded, and */
-    unsigned char rays[SPT_BATCH];    /* which rays of the window they are: set when written */
+    uint16_t rays[SPT_BATCH];         /* which rays of the call they are: set when written */
 } spti_leavers;
 
 /* Takes in a caller's field and the bound it points to; 0 where either breaks its rules. */
 int spti_field_copy(spt_field *to, spt_bound *bound, const spt_field *from);
 
+int spti_settings_copy(spt_settings *to, const spt_settings *from);
+
+/* Whether a rule may trace a field. */
+int spti_method_allowed(const spt_method *method, const spt_field *field);
+
+/* Whether count rays and hits can be read and written where they are said to be. */
+int spti_views_fit(const spt_rays *rays, const spt_hits *hits, size_t count);
+
+/* Whether rays spend evaluations beside those of the passes of a chunk. */
+static inline int spti_keeps_spent(const spti_call *call) {
+    return (call->settings.flags & SPT_SKIP_START) != 0 || call->stop != NULL;
+}
+
+/* Settles what follows from a call's field, bound, settings, hits, statistics and stop. */
+void spti_call_settle(spti_call *call);
+
 /* Traces the rays first .. first + window - 1, window <= SPT_BATCH. */
-void spti_trace_chunk(const spti_call *call, size_t first, size_t window);
+void spti_trace_chunk(const spti_call *call, spti_chunk *chunk, size_t first, size_t window);
+
+/* The steps of that. Loads the `count` rays first + chunk->picked[i], which ascend; */
+void spti_load_chunk(const spt_rays *rays, spti_chunk *chunk, size_t count, size_t first);
+
+/* and marches them, after they were prepared, until all have left. any: whether some are finished
+ * already. first_pass: 1 for fresh rays, 0 for rays whose points to evaluate are in place. */
+void spti_run_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size_t first, int any,
+                      int first_pass);
 
 /* Asks the callback for n points (rounded up to whole groups, which must be filled) into
  * chunk->distance; what it does not write is NaN. */
 void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n);
 
-/* Writes the results of rays; `first` is the number of the chunk's first ray. For SPT_NONFINITE,
- * SPT_HIT and SPT_LIMIT t and f are those of the slot. */
-void spti_write_hits(const spti_call *call, const spti_chunk *chunk, spti_leavers *leavers,
-                     size_t first);
+/* Sets the indices and rays of leavers. */
+void spti_name_leavers(const spti_chunk *chunk, spti_leavers *leavers);
+
+/* The leave of spt_trace(): writes the results of rays. */
+spti_leave_fn spti_write_hits;
+
+/* Whether a slope betrays the field: exact ones were seen to reach 1.0003. */
+static inline int spti_is_steep(float slope) {
+    return slope > 1.001f;
+}
 
 /* Finishes the `count` bracketed rays in the last slots of the chunk. */
 void spti_close_brackets(const spti_call *call, spti_chunk *chunk, size_t count, size_t first);

@@ -8,9 +8,6 @@
 #include "../base/arguments.h"
 #include "driver.h"
 
-/* Exact fields were seen to reach a slope of 1.0003. */
-#define STEEP_SLOPE 1.001f
-
 /* Where the word of a leaving ray goes. */
 typedef struct leave_column {
     char *base;
@@ -24,7 +21,7 @@ static leave_column column_of(const spt_sink *sink, size_t first) {
     return column;
 }
 
-static void write_word(leave_column column, unsigned char ray, const void *word) {
+static void write_word(leave_column column, uint16_t ray, const void *word) {
     memcpy(column.base + ray * column.stride, word, 4);
 }
 
@@ -113,7 +110,7 @@ static void write_audit(const spti_call *call, const spti_chunk *chunk, const sp
     if (to_flags.base != NULL) {
         for (size_t i = 0; i < count; ++i) {
             const size_t slot = leavers->slots[i];
-            const int steep = leavers->steep || chunk->array[SPTI_STEEPEST][slot] > STEEP_SLOPE;
+            const int steep = leavers->steep || spti_is_steep(chunk->array[SPTI_STEEPEST][slot]);
             const int inside = chunk->array[SPTI_SCALE][slot] < 0.0f;
             const uint32_t flags = (steep ? SPT_FLAG_STEEP : 0u) | (inside ? SPT_FLAG_INSIDE : 0u);
             write_word(to_flags, leavers->rays[i], &flags);
@@ -142,13 +139,17 @@ static void count_in(const spti_call *call, const spti_chunk *chunk, const spti_
     }
 }
 
-void spti_write_hits(const spti_call *call, const spti_chunk *chunk, spti_leavers *leavers,
-                     size_t first) {
+void spti_name_leavers(const spti_chunk *chunk, spti_leavers *leavers) {
     for (size_t i = 0; i < leavers->count; ++i) {
         const int index = (int)chunk->array[SPTI_INDEX][leavers->slots[i]];
         leavers->indices[i] = (unsigned char)index;
         leavers->rays[i] = chunk->picked[index];
     }
+}
+
+void spti_write_hits(const spti_call *call, spti_chunk *chunk, spti_leavers *leavers,
+                     size_t first) {
+    spti_name_leavers(chunk, leavers);
     write_place(call, chunk, leavers, first);
     write_end(call, chunk, leavers, first);
     if (call->wants & SPTI_WANT_CANDIDATE) write_candidate(call, chunk, leavers, first);

@@ -330,7 +330,7 @@ SPTI_INLINE int march_pass(spti_chunk *chunk, const spti_march *march, size_t co
                                  spt_mask_splat(first)};
     unsigned any = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
-        spti_fates fates = {0, 0, 0, 0, 0, 0};
+        spti_fates fates = {0, 0, 0, 0, 0, 0, 0};
         /* The whole group: its padding goes where the ray goes that it repeats. */
         for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
             march_vector(chunk, &all, group * SPTI_GROUP + shift, shift, wants, &fates);

@@ -131,7 +131,7 @@ SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, size
 SPTI_INLINE int prepare_pass(spti_chunk *chunk, const spti_march *march, size_t count) {
     unsigned any = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
-        spti_fates fates = {0, 0, 0, 0, 0, 0};
+        spti_fates fates = {0, 0, 0, 0, 0, 0, 0};
         const size_t start = group * SPTI_GROUP, left = count - start;
         /* The whole group: its padding goes where the ray goes that it repeats. */
         for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {

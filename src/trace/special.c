@@ -39,14 +39,14 @@ static int within_tolerance(const spti_call *call, const spti_chunk *chunk, size
 
 /* Makes one step of a ray that is within the tolerance. Returns whether there is a sample to ask
  * for, in place `to`; otherwise nothing is ahead, or the budget ends here. */
-static int walk(const spti_call *call, spti_chunk *chunk, size_t slot, uint32_t steps, size_t to) {
+static int walk(const spti_call *call, spti_chunk *chunk, size_t slot, size_t to) {
     const float t = chunk->array[SPTI_T][slot];
     const float next = t + tolerance_at(call, chunk, slot, t);
     if (!(next > t) || !(next <= chunk->array[SPTI_T_MAX][slot])) {
         chunk->array[SPTI_VALUE][slot] = INFINITY; /* nothing ahead: a miss */
         return 0;
     }
-    if (steps + 1 >= call->settings.budget) return 0;
+    if (spti_spent(chunk, slot) + 1 >= call->settings.budget) return 0; /* 1 at t_min */
     chunk->array[SPTI_T][slot] = chunk->array[SPTI_PROBE][slot] = next;
     place_point(chunk, slot, to, next);
     return 1;
@@ -63,7 +63,7 @@ uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count)
     for (; walkers > 0 && steps < call->settings.budget; ++steps) {
         size_t asked = 0, still = 0;
         for (size_t i = 0; i < walkers; ++i) {
-            if (walk(call, chunk, walking[i], steps, asked)) walking[asked++] = walking[i];
+            if (walk(call, chunk, walking[i], asked)) walking[asked++] = walking[i];
         }
         if (asked == 0) break;
         pad_points(chunk, asked);
@@ -71,7 +71,7 @@ uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count)
         for (size_t i = 0; i < asked; ++i) {
             const size_t slot = walking[i];
             chunk->array[SPTI_VALUE][slot] = chunk->distance[i];
-            spti_set_spent(chunk, slot, steps + 1);
+            spti_set_spent(chunk, slot, spti_spent(chunk, slot) + 1);
             if (within_tolerance(call, chunk, slot)) walking[still++] = walking[i];
         }
         walkers = still;
@@ -125,7 +125,7 @@ static SPTI_NOINLINE void leave(const spti_call *call, spti_chunk *chunk, size_t
     alone.steep = 1;
     alone.slots[0] = (uint16_t)slot;
     alone.outcomes[0] = (unsigned char)outcome;
-    spti_write_hits(call, chunk, &alone, first);
+    call->leave(call, chunk, &alone, first);
 }
 
 /* Whether the ray in a slot needs another sample at t, its next; otherwise it was written out. */

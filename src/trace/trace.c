@@ -17,7 +17,7 @@ int spti_field_copy(spt_field *to, spt_bound *bound, const spt_field *from) {
     return to->bound == NULL || spti_bound_copy(bound, to->bound);
 }
 
-static int copy_settings(spt_settings *to, const spt_settings *from) {
+int spti_settings_copy(spt_settings *to, const spt_settings *from) {
     memset(to, 0, sizeof *to); /* not the defaults: those would link their method */
     to->struct_size = sizeof *to;
     if (from == NULL || !spti_copy_sized(to, from, sizeof *to)) return 0;
@@ -64,9 +64,18 @@ static int check_hits(const spt_hits *hits, size_t count) {
     return 1;
 }
 
+int spti_method_allowed(const spt_method *method, const spt_field *field) {
+    return !method->needs_convex || (field->flags & SPT_FIELD_CONVEX) != 0;
+}
+
+int spti_views_fit(const spt_rays *rays, const spt_hits *hits, size_t count) {
+    return check_rays(rays, count) && check_hits(hits, count);
+}
+
 static void settle_wants(spti_call *call) {
     const spt_hits *hits = call->hits;
     const int counted = call->statistics != NULL;
+    call->wants = 0;
     if (hits->candidate_t.first != NULL || hits->candidate_ratio.first != NULL) {
         call->wants |= SPTI_WANT_CANDIDATE;
     }
@@ -77,12 +86,14 @@ static void settle_wants(spti_call *call) {
 /* The arrays that hold something in this call; the others are not moved. */
 static void settle_arrays(spti_call *call) {
     const spt_method *method = call->settings.method;
+    call->array_count = 0;
     for (int array = 0; array < SPTI_ARRAYS; ++array) {
         int held = 1;
         if (array == SPTI_MEMORY) held = method->memory > 0;
         if (array == SPTI_PENDING_T) held = method->pending || method->memory > 1;
         if (array == SPTI_PENDING_VALUE) held = method->pending;
-        if (array == SPTI_SPENT) held = (call->settings.flags & SPT_SKIP_START) != 0;
+        if (array == SPTI_SPENT) held = spti_keeps_spent(call);
+        if (array == SPTI_STOP) held = call->stop != NULL;
         if (array == SPTI_STEEPEST) held = (call->wants & SPTI_WANT_SLOPE) != 0;
         if (array == SPTI_FALLBACKS) held = (call->wants & SPTI_WANT_FALLBACKS) != 0;
         if (array == SPTI_CANDIDATE_T || array == SPTI_CANDIDATE_RATIO) {
@@ -107,31 +118,42 @@ static void settle_march(spti_call *call) {
     call->march.bound = bound;
 }
 
+void spti_call_settle(spti_call *call) {
+    call->isa = spti_isa_choose(call->settings.max_lanes);
+    settle_wants(call);
+    settle_arrays(call);
+    settle_march(call);
+    call->pass = call->settings.method->march[call->isa][call->wants];
+}
+
+/* The chunk's frame is left before the public door's: no more than one is on the stack. */
+static void trace_chunk(const spti_call *call, size_t first, size_t window) {
+    SPTI_ALIGNED(64) float arrays[SPTI_STOP][SPTI_ROOM]; /* all but that, the last */
+    spti_chunk chunk;
+    chunk.array = arrays;
+    spti_trace_chunk(call, &chunk, first, window);
+}
+
 spt_status spt_trace(const spt_field *field, const spt_settings *settings, size_t count,
                      const spt_rays *rays, const spt_hits *hits, spt_statistics *statistics) {
     spti_call call;
     memset(&call, 0, sizeof call);
     if (!spti_field_copy(&call.field, &call.bound, field)) return SPT_BAD_ARGUMENT;
-    if (!copy_settings(&call.settings, settings)) return SPT_BAD_ARGUMENT;
-    if (call.settings.method->needs_convex && !(call.field.flags & SPT_FIELD_CONVEX)) {
-        return SPT_BAD_ARGUMENT;
-    }
+    if (!spti_settings_copy(&call.settings, settings)) return SPT_BAD_ARGUMENT;
+    if (!spti_method_allowed(call.settings.method, &call.field)) return SPT_BAD_ARGUMENT;
     if (statistics != NULL && statistics->struct_size < sizeof *statistics) return SPT_BAD_ARGUMENT;
     if (count == 0) return SPT_OK;
     if (rays == NULL || hits == NULL) return SPT_BAD_ARGUMENT;
-    if (!check_rays(rays, count) || !check_hits(hits, count)) return SPT_BAD_ARGUMENT;
+    if (!spti_views_fit(rays, hits, count)) return SPT_BAD_ARGUMENT;
     call.rays = rays;
     call.hits = hits;
     call.statistics = statistics;
-    call.isa = spti_isa_choose(call.settings.max_lanes);
-    settle_wants(&call);
-    settle_arrays(&call);
-    settle_march(&call);
-    call.pass = call.settings.method->march[call.isa][call.wants];
+    call.leave = spti_write_hits;
+    spti_call_settle(&call);
     if (statistics != NULL) statistics->lanes = (uint32_t)spti_isa_lanes(call.isa);
     for (size_t first = 0; first < count; first += SPT_BATCH) {
         const size_t left = count - first;
-        spti_trace_chunk(&call, first, left < SPT_BATCH ? left : SPT_BATCH);
+        trace_chunk(&call, first, left < SPT_BATCH ? left : SPT_BATCH);
     }
     return SPT_OK;
 }
