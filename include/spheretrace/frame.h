@@ -162,11 +162,11 @@ typedef struct spt_frame {
 SPT_API spt_status spt_frame_init(spt_frame *frame, const spt_scene *scene,
                                   const spt_camera *camera, uint32_t width, uint32_t height);
 
-/* Bytes of workspace for a thread that traces this frame: 9 KiB a component and 300 KiB. 0 for a
- * bad frame. */
+/* Bytes of workspace for a thread that traces this frame: about 47 KiB a component and 180 KiB, or
+ * 13 KiB a component of more than 256. 0 for a bad frame. */
 SPT_API size_t spt_frame_workspace(const spt_frame *frame);
 
-/* How many tiles cover the region; 0 for a bad frame or an empty region. */
+/* How many tiles cover the region; 0 for a bad frame, and an empty region is one. */
 SPT_API size_t spt_frame_tiles(const spt_frame *frame);
 
 /* The pixels of the region in tile index: area receives left, top, right, bottom in the whole
@@ -197,7 +197,9 @@ typedef struct spt_frame_progress {
     uint64_t evaluations; /* since the start, cones included */
 } spt_frame_progress;
 
-/* Bytes of state that spt_frame_advance() keeps for this frame between calls; 0 for a bad frame. */
+/* Bytes of state that spt_frame_advance() keeps for this frame between calls; 0 for a bad frame. The
+ * calls work in the state, which points into itself: it must stay where it is. They do not use
+ * frame->workspace. */
 SPT_API size_t spt_frame_state_size(const spt_frame *frame);
 
 /* Begins anew: before the first spt_frame_advance() with this state, and whenever the scene has
@@ -208,10 +210,11 @@ SPT_API spt_status spt_frame_restart(const spt_frame *frame, void *state, size_t
 /* Goes on with a progressive frame for about `evaluations` evaluations: it stops after the batch of
  * at most SPT_BATCH with which it has spent them, wherever the rays are, and a later call goes on
  * from there. The results of any division into calls have the same bits.
- *   image     sinks for the region, written by the last pass, each pixel once its chunk of 16x16
- *             is finished; or NULL
+ *   image     sinks for the region, written by the last pass, each pixel once its chunk is
+ *             finished; or NULL
  *   progress  receives how far it is, or NULL
- * A pass of lower resolution walks a cone for every pixel of it and traces the ray in its middle;
+ * A pass of lower resolution walks a cone for every pixel of it and traces the ray in its middle,
+ * with a pixel_radius as much larger as its pixels are;
  * each ray of the next pass starts at the least t of all cones that its pixel overlaps, so that
  * resolutions need not divide one another (section 4 of the paper takes the closest one, which
  * loses pixels). Begins anew by itself when the camera, the settings, the size or the passes of the
@@ -220,8 +223,8 @@ SPT_API spt_status spt_frame_advance(const spt_frame *frame, void *state, size_t
                                      uint64_t evaluations, const spt_hits *image,
                                      spt_frame_progress *progress);
 
-/* The same for about `seconds` of the caller's clock: how many evaluations that is comes from what
- * the ones so far took. A clock that stands still gives SPT_UNSUPPORTED after a batch. */
+/* The same for about `seconds` (>= 0) of the caller's clock: how many evaluations that is comes from
+ * what those so far took. A clock that stands still over 2^16 evaluations gives SPT_UNSUPPORTED. */
 SPT_API spt_status spt_frame_advance_for(const spt_frame *frame, void *state, size_t state_size,
                                          double seconds, spt_clock_fn *clock, void *clock_user,
                                          const spt_hits *image, spt_frame_progress *progress);
@@ -230,7 +233,8 @@ SPT_API spt_status spt_frame_advance_for(const spt_frame *frame, void *state, si
  * that frame->shade gave it, or where the last pass has not been yet the bilinear colour of the
  * finest pass below that has been there on all four sides; 0 where there is none. picture: the
  * first channel of each pixel, frame->channels floats one after another. Returns SPT_BAD_ARGUMENT
- * without frame->shade, or for a state that was begun with another frame. */
+ * without frame->shade, or for a state that was begun with another frame, SPT_BUFFER_TOO_SMALL
+ * below spt_frame_state_size(). */
 SPT_API spt_status spt_frame_picture(const spt_frame *frame, const void *state, size_t state_size,
                                      const spt_sink *picture);
 

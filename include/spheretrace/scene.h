@@ -5,9 +5,10 @@
  * Smooth unions are no unions of surfaces: blend them inside one field. Cameras are in frame.h.
  *
  * WHAT COMES BACK is the first surface on the ray, as if every component had been traced by itself
- * with spt_trace() and the nearest hit taken: t, residual and outcome have the same bits. A
- * component whose field has SPT_FIELD_CONVEX is traced with spt_convex(), the others with
- * settings.method. So nothing that is left out because it cannot be met (by a bound, by a tile's
+ * with spt_trace() and the nearest hit taken: t, residual and outcome have the same bits, as long
+ * as the fields keep their Lipschitz promises (of one that does not, what it hides behind its true
+ * distance may be passed over). A component whose field has SPT_FIELD_CONVEX is traced with
+ * spt_convex(), the others with settings.method. So nothing that is left out because it cannot be met (by a bound, by a tile's
  * list) changes a result, and neither do a ray's neighbours. */
 #ifndef SPHERETRACE_SCENE_H
 #define SPHERETRACE_SCENE_H
@@ -22,7 +23,10 @@ extern "C" {
 
 /* A ball that rays jump over: what lies in it is not there for them, so that it can be drawn by
  * other means (Szécsi et al. 2016, section 8.4). A surface that crosses the ball's boundary is cut
- * there, and shows the cut where it is solid. World units, finite; radius > 0. */
+ * there, and shows the cut where it is solid: a ray that comes from outside and leaves the ball
+ * into a body hits it there, with the residual f < 0 of that point and no SPT_FLAG_INSIDE. A ray
+ * that begins in a ball begins where it leaves it, and one that comes to a ball inside of a body
+ * goes on behind it. World units, finite; radius > 0. */
 typedef struct spt_zone {
     float center[3];
     float radius;
@@ -39,7 +43,8 @@ typedef struct spt_scene {
     size_t count;             /* at least 1, at most 2^23 */
     const int32_t *materials; /* count numbers that mean something to the caller, or NULL */
     const spt_zone *zones;    /* zone_count of them, or NULL */
-    size_t zone_count;        /* at most 2^16. Each costs a ray about as much as a bound */
+    size_t zone_count;        /* at most 2^16. A ray looks at each about once for every component
+                               * that it asks, and once more for every ball it jumps over */
 } spt_scene;
 
 /* A scene of no fields yet, without materials and zones. */
@@ -56,8 +61,8 @@ static inline int32_t spt_scene_material(const spt_scene *scene, int32_t compone
     return scene->materials[component];
 }
 
-/* The bytes of workspace that a call of spt_scene_trace() needs for this scene: 30 KiB a component
- * and 170 KiB. 0 where the scene or the settings break their rules. */
+/* The bytes of workspace that a call of spt_scene_trace() needs for this scene: about 42 KiB a
+ * component and 160 KiB. 0 where the scene or the settings break their rules. */
 SPT_API size_t spt_scene_workspace(const spt_scene *scene, const spt_settings *settings);
 
 /* Traces count rays against the union.
@@ -69,9 +74,11 @@ SPT_API size_t spt_scene_workspace(const spt_scene *scene, const spt_settings *s
  *                                 if the ray began inside any that was asked. Each component has
  *                                 its own inside: a ray that begins in one looks for the way out
  *                                 of it, and for the way into the others
- *                     candidate   the least over the samples of all components
+ *                     candidate   the least over the samples of all components, each of which is
+ *                                 asked only inside its bound
  *                     SPT_LIMIT   t and residual are those of the component that would have been
- *                                 asked next; up to t the ray is free
+ *                                 asked next; up to t the ray is free of all, but t need not grow
+ *                                 with the budget
  *                     SPT_NONFINITE is the outcome where a component answers so before any hit
  *   workspace         memory of the calling thread for the time of the call, any alignment
  *   workspace_size    its bytes, at least spt_scene_workspace()

@@ -4,19 +4,26 @@
  * instruction set, with SPTI_ISA (its name) and SPT_LANES defined. */
 #include "../scene/union_kernel.h"
 
-static void units(spti_chunk *chunk, size_t count) {
-    union_units(chunk, count);
+static void begin(spti_union *lazy, size_t window, size_t count) {
+    union_begin(lazy, window, count);
     spti_clear_upper();
 }
 
-static void entries(const spti_chunk *chunk, const spt_bound *bound, size_t count, float *starts) {
-    union_entries(chunk, bound, count, starts);
+static void enter(spti_union *lazy, size_t place, const float *starts) {
+    union_enter(lazy, place, starts);
     spti_clear_upper();
 }
 
-static void least(const spti_union *lazy, size_t group_count) {
-    union_least(lazy, group_count);
+static int plan(spti_union *lazy) {
+    const int any = union_plan(lazy);
     spti_clear_upper();
+    return any;
+}
+
+static size_t take(spti_union *lazy, int kind, size_t *group) {
+    const size_t count = union_take(lazy, kind, group);
+    spti_clear_upper();
+    return count;
 }
 
 static int stop(spti_chunk *chunk, size_t count) {
@@ -27,4 +34,4 @@ static int stop(spti_chunk *chunk, size_t count) {
 
 #define KERNELS SPTI_JOIN2(spti_union_kernels, SPTI_ISA)
 extern const spti_union_kernels KERNELS;
-const spti_union_kernels KERNELS = {units, entries, least, stop};
+const spti_union_kernels KERNELS = {begin, enter, plan, take, stop};

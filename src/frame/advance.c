@@ -179,6 +179,8 @@ int spti_state_fits(const spti_state *state, const spti_job *job) {
            a->shade_user == b->shade_user && a->channels == b->channels;
 }
 
+enum { STAGE_NEXT, STAGE_TILE, STAGE_CHUNK, STAGE_PIXELS, STAGE_RAYS, STAGE_DONE, STAGE_NONE };
+
 /* ---- Chunks --------------------------------------------------------------------------------- */
 
 /* The least t of all cones of the pass below that a pixel overlaps. */
@@ -200,26 +202,58 @@ static float inherited(const spti_state *state, uint32_t x, uint32_t y) {
     return least;
 }
 
-/* Begins the next chunk. Returns 0 where none of its pixels is traced. */
-static int open_chunk(spti_state *state) {
+static int inherits(const spti_state *state) {
+    return state->pass > 0 && keeps_cones(state, state->pass - 1);
+}
+
+/* Pools the rays of the chunk at work. */
+static void open_rays(spti_state *state) {
     const spti_level *const level = &state->levels[state->pass];
-    spti_desk *const desk = state->desk;
-    const int inherits = state->pass > 0 && keeps_cones(state, state->pass - 1);
-    const int keeps = keeps_cones(state, state->pass);
-    uint32_t column, row;
-    size_t index;
-    spti_level_chunk(level, state->chunk, &column, &row, &index);
-    if (state->tile != state->chunk / SPTI_CHUNKS + 1) {
-        spti_desk_tile(desk, column, row, !inherits);
-        state->tile = state->chunk / SPTI_CHUNKS + 1;
-    }
-    if (!spti_desk_chunk(desk, index, !inherits)) return 0;
-    for (size_t i = 0; inherits && i < SPT_BATCH; ++i) {
+    const spti_desk *const desk = state->desk;
+    for (size_t i = 0; inherits(state) && i < SPT_BATCH; ++i) {
         const uint32_t x = at_most(spti_desk_column(desk, i), level->grid.part.x_1 - 1);
         const uint32_t y = at_most(spti_desk_row(desk, i), level->grid.part.y_1 - 1);
         state->starts[i] = desk->all || desk->active[i] != 0 ? inherited(state, x, y) : 0.0f;
     }
-    spti_desk_open(desk, inherits ? state->starts : NULL, keeps ? state->pixel_t : NULL);
+    spti_desk_open(state->desk, inherits(state) ? state->starts : NULL);
+}
+
+/* Begins the next chunk, and its tile if it is the first one of that. */
+static void open_chunk(spti_state *state) {
+    uint32_t column, row;
+    size_t index;
+    spti_level_chunk(&state->levels[state->pass], state->chunk, &column, &row, &index);
+    if (index == 0) {
+        spti_desk_tile(state->desk, column, row);
+        state->stage = STAGE_TILE;
+    } else {
+        state->stage = spti_desk_chunk(state->desk, index) ? STAGE_CHUNK : STAGE_NONE;
+    }
+}
+
+/* Goes on with the chunk at work, stage by stage. Returns whether the allowance lasted; at the end
+ * the stage is STAGE_DONE, or STAGE_NONE where there is nothing to trace. */
+static int work_on(spti_state *state) {
+    spti_desk *const desk = state->desk;
+    if (state->stage == STAGE_TILE) {
+        if (!spti_desk_tile_cones(desk, !inherits(state))) return 0;
+        state->stage = spti_desk_chunk(desk, 0) ? STAGE_CHUNK : STAGE_NONE;
+    }
+    if (state->stage == STAGE_CHUNK) {
+        if (!spti_desk_chunk_cones(desk, !inherits(state))) return 0;
+        open_rays(state);
+        state->stage = STAGE_PIXELS;
+    }
+    if (state->stage == STAGE_PIXELS) {
+        const int keeps = keeps_cones(state, state->pass);
+        if (keeps && !spti_desk_pixel_cones(desk, state->pixel_t)) return 0;
+        spti_desk_enter(desk);
+        state->stage = STAGE_RAYS;
+    }
+    if (state->stage == STAGE_RAYS) {
+        if (!spti_union_run(&desk->lazy)) return 0;
+        state->stage = STAGE_DONE;
+    }
     return 1;
 }
 
@@ -231,7 +265,6 @@ static void shade_chunk(spti_state *state) {
     size_t places[SPTI_GROUP];
     spt_ray rays[SPTI_GROUP];
     spt_hit hits[SPTI_GROUP];
-    const spt_hits sinks = spt_hits_of(hits);
     for (size_t block = 0; block < SPT_BATCH; block += SPTI_GROUP) {
         size_t count = 0;
         for (size_t i = block; i < block + SPTI_GROUP; ++i) {
@@ -240,8 +273,7 @@ static void shade_chunk(spti_state *state) {
             if (column < part->x_0 || column >= part->x_1 || row < part->y_0 || row >= part->y_1) {
                 continue;
             }
-            const spti_record record = spti_desk_record(desk, i);
-            spti_records_write(&record, 1, &sinks, count, NULL);
+            spti_union_hit(&desk->lazy, i, &hits[count]);
             for (int axis = 0; axis < 3; ++axis) {
                 rays[count].origin[axis] = desk->rays.origin[axis][i];
                 rays[count].direction[axis] = desk->rays.direction[axis][i];
@@ -293,19 +325,16 @@ static void begin_pass(spti_state *state) {
     spti_desk_begin(state->desk, &state->job, &settings, &level->grid, &state->wanted,
                     state->job.frame.statistics);
     state->begun_pass = 1;
-    state->open = 0;
-    state->chunk = state->tile = state->pixels = 0;
+    state->stage = STAGE_NEXT;
+    state->chunk = state->pixels = 0;
 }
 
-/* Takes the cones' evaluations since the last time from the allowance. */
-static void spend_on_cones(spti_state *state, uint64_t *allowance) {
+/* Counts what the cones did since the last time. */
+static void count_cones(spti_state *state) {
     spti_desk *const desk = state->desk;
     spt_statistics *const statistics = state->job.frame.statistics;
-    const uint64_t spent = desk->cone_evaluations;
-    *allowance -= spent < *allowance ? spent : *allowance;
-    state->evaluations += spent;
     if (statistics != NULL) {
-        statistics->cone_evaluations += spent;
+        statistics->cone_evaluations += desk->cone_evaluations;
         statistics->kept += desk->kept;
         statistics->culled += desk->culled;
         statistics->lanes = (uint32_t)spti_isa_lanes(desk->isa);
@@ -314,26 +343,23 @@ static void spend_on_cones(spti_state *state, uint64_t *allowance) {
 }
 
 /* Goes on with the chunk at work, or the next one. */
-static void advance_chunk(spti_state *state, uint64_t *allowance, const spt_hits *image) {
-    if (!state->open) {
-        state->open = open_chunk(state);
-        spend_on_cones(state, allowance);
-    }
-    if (state->open) {
-        const uint64_t before = *allowance;
-        state->desk->lazy.allowance = before;
-        const int ended = spti_union_run(&state->desk->lazy);
-        *allowance = state->desk->lazy.allowance;
-        state->evaluations += before - *allowance;
-        if (!ended) return;
-        close_chunk(state, image);
-    }
-    state->open = 0;
+static void advance_chunk(spti_state *state, int64_t *allowance, const spt_hits *image) {
+    spti_union *const lazy = &state->desk->lazy;
+    const int64_t before = *allowance;
+    if (state->stage == STAGE_NEXT) open_chunk(state);
+    lazy->allowance = before;
+    const int ended = work_on(state);
+    *allowance = lazy->allowance;
+    state->evaluations += (uint64_t)(before - *allowance);
+    count_cones(state);
+    if (!ended) return;
+    if (state->stage == STAGE_DONE) close_chunk(state, image);
+    state->stage = STAGE_NEXT;
     state->chunk += 1;
 }
 
 static void advance(spti_state *state, uint64_t evaluations, const spt_hits *image) {
-    uint64_t allowance = evaluations;
+    int64_t allowance = evaluations < (uint64_t)INT64_MAX ? (int64_t)evaluations : INT64_MAX;
     for (; state->pass < state->pass_count && allowance > 0;) {
         if (!state->begun_pass) begin_pass(state);
         if (state->chunk < spti_level_chunks(&state->levels[state->pass])) {
@@ -344,7 +370,7 @@ static void advance(spti_state *state, uint64_t evaluations, const spt_hits *ima
         }
     }
     /* A pass whose last chunk is done is finished, whoever finds no allowance left. */
-    if (state->pass < state->pass_count && state->begun_pass && !state->open &&
+    if (state->pass < state->pass_count && state->begun_pass && state->stage == STAGE_NEXT &&
         state->chunk == spti_level_chunks(&state->levels[state->pass])) {
         state->pass += 1;
         state->begun_pass = 0;
@@ -397,7 +423,17 @@ spt_status spt_frame_advance(const spt_frame *frame, void *state, size_t state_s
     return SPT_OK;
 }
 
-enum { FIRST_SLICE = 4096, MOST_SLICES = 1 << 20 };
+/* A clock that has not moved by then stands still. */
+enum { MOST_WITHOUT_A_TICK = 1 << 16, MOST_SLICES = 1 << 20 };
+
+/* Evaluations for the next slice: half of what is left, so that a slice that is dearer than those
+ * before does not overrun by as much again. Without experience as many as since the start. */
+static uint64_t slice_of(const spti_state *state, double left, uint64_t since) {
+    const double each = state->seconds_an_evaluation;
+    const double guess = each > 0 ? 0.5 * left / each : (double)since;
+    if (!(guess > SPT_BATCH)) return SPT_BATCH;
+    return guess < 1e15 ? (uint64_t)guess : (uint64_t)1e15;
+}
 
 spt_status spt_frame_advance_for(const spt_frame *frame, void *state, size_t state_size,
                                  double seconds, spt_clock_fn *clock, void *clock_user,
@@ -408,22 +444,18 @@ spt_status spt_frame_advance_for(const spt_frame *frame, void *state, size_t sta
     const spt_status status = take_up(frame, state, state_size, image, &begun, &restarted);
     if (status != SPT_OK) return status;
     const double start = clock(clock_user);
+    const uint64_t first = begun->evaluations;
     double now = start;
-    for (int slice = 0; slice < MOST_SLICES && now - start < seconds; ++slice) {
+    for (int slice = 0; slice < MOST_SLICES && now - start < seconds && !stands_still; ++slice) {
         if (begun->pass == begun->pass_count) break;
-        const double each = begun->seconds_an_evaluation, left = seconds - (now - start);
-        /* Half of what is left, so that a slice that is dearer than those before does not overrun
-         * by as much again. */
-        const double guess = each > 0 ? 0.5 * left / each : FIRST_SLICE;
-        const uint64_t allowance =
-            guess > SPT_BATCH ? (guess < 1e15 ? (uint64_t)guess : (uint64_t)1e15) : SPT_BATCH;
         const uint64_t before = begun->evaluations;
-        advance(begun, allowance, image);
+        advance(begun, slice_of(begun, seconds - (now - start), before - first), image);
         const double later = clock(clock_user);
-        const uint64_t spent = begun->evaluations - before;
-        if (later > now && spent > 0) begun->seconds_an_evaluation = (later - now) / (double)spent;
-        stands_still = !(later > start);
-        if (stands_still && slice >= 1) break;
+        const uint64_t spent = begun->evaluations - first;
+        if (later > start && spent > 0) {
+            begun->seconds_an_evaluation = (later - start) / (double)spent;
+        }
+        stands_still = !(later > start) && spent >= MOST_WITHOUT_A_TICK;
         now = later;
     }
     report(begun, restarted, progress);

@@ -80,6 +80,7 @@ void spti_bundles_of(const spti_view *view, spti_isa isa, unsigned present,
     spti_cone_kernels_of[isa]->rays(view, (size_t)5 * SPTI_BUNDLES, x, y, &rays);
     bundles->present = present;
     bundles->usable = 0;
+    bundles->longest_path = 0.0f;
     for (size_t i = 0; i < SPTI_BUNDLES; ++i) {
         float alpha = 0.0f, beta = 0.0f;
         for (size_t corner = 1; corner <= 4; ++corner) {
@@ -106,54 +107,77 @@ static float apart(const float a[3], const float b[3]) {
     return sqrtf(x * x + y * y + z * z);
 }
 
-/* Whether a ray has a length for which its bundle's cone is right; false for NaN. */
-static int is_plain(const spt_ray *ray) {
-    const float *const d = ray->direction;
-    const float square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    return fabsf(square - 1.0f) <= 2.0f * LENGTH_SLACK && spti_within(ray->t_min, 0.0f, FLT_MAX) &&
-           spti_finite(ray->origin[0]) && spti_finite(ray->origin[1]) &&
-           spti_finite(ray->origin[2]);
+/* Whether a ray counts at all: not one that is left out, nor a bad one (trace.h). */
+static int is_member(const spt_camera_ray *ray) {
+    float largest = 0.0f;
+    if (ray->active == 0) return 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!spti_finite(ray->ray.origin[axis]) || !spti_finite(ray->ray.direction[axis])) return 0;
+        largest = at_least(fabsf(ray->ray.direction[axis]), largest);
+    }
+    return largest >= FLT_MIN && spti_within(ray->ray.t_min, 0.0f, FLT_MAX) &&
+           spti_within(ray->path, 0.0f, FLT_MAX) && ray->ray.t_max <= INFINITY;
 }
 
-/* Bundle i of 16 rays; its middle ray is the mean of the active ones. */
-static void bundle_rays(const spt_camera_ray *rays, size_t i, spti_bundles *bundles) {
-    float origin[3] = {0}, direction[3] = {0}, members = 0.0f, alpha = 0.0f, beta = 0.0f;
-    float t_min = FLT_MAX, t_max = 0.0f, length = 0.0f;
+/* Whether its length is one for which its bundle's cone is right. */
+static int is_plain(const spt_camera_ray *ray) {
+    const float *const d = ray->ray.direction;
+    return fabsf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - 1.0f) <= 2.0f * LENGTH_SLACK;
+}
+
+/* The middle ray of 16: the mean. Returns 0 where there is none, or they are not plain. */
+static int middle_ray(const spt_camera_ray *rays, float origin[3], float direction[3]) {
+    float members = 0.0f;
     int plain = 1;
+    for (int axis = 0; axis < 3; ++axis) origin[axis] = direction[axis] = 0.0f;
     for (size_t j = 0; j < SPTI_GROUP; ++j) {
-        if (rays[j].active == 0) continue;
+        if (!is_member(&rays[j])) continue;
         members += 1.0f;
-        plain = plain && is_plain(&rays[j].ray);
+        plain = plain && is_plain(&rays[j]);
+    }
+    for (size_t j = 0; plain && j < SPTI_GROUP; ++j) {
+        if (!is_member(&rays[j])) continue;
         for (int axis = 0; axis < 3; ++axis) {
-            origin[axis] += rays[j].ray.origin[axis];
+            origin[axis] += rays[j].ray.origin[axis] / members;
             direction[axis] += rays[j].ray.direction[axis];
         }
     }
-    if (members > 0.0f && plain) length = apart(direction, (const float[3]){0.0f, 0.0f, 0.0f});
-    plain = plain && length > 0.0f;
-    for (int axis = 0; axis < 3; ++axis) {
-        origin[axis] = plain ? origin[axis] / members : 0.0f;
-        direction[axis] = plain ? direction[axis] / length : (float)(axis == 2);
-        bundles->origin[axis][i] = origin[axis];
-        bundles->direction[axis][i] = direction[axis];
-    }
-    for (size_t j = 0; plain && j < SPTI_GROUP; ++j) {
-        if (rays[j].active == 0) continue;
+    const float length = apart(direction, (const float[3]){0.0f, 0.0f, 0.0f});
+    if (!(length > 0.0f)) return 0;
+    for (int axis = 0; axis < 3; ++axis) direction[axis] /= length;
+    return 1;
+}
+
+/* Bundle i of 16 rays. */
+static void bundle_rays(const spt_camera_ray *rays, size_t i, spti_bundles *bundles) {
+    float origin[3], direction[3], alpha = 0.0f, beta = 0.0f;
+    float t_min = FLT_MAX, t_max = 0.0f;
+    const int plain = middle_ray(rays, origin, direction);
+    for (size_t j = 0; j < SPTI_GROUP; ++j) {
+        if (!is_member(&rays[j])) continue;
+        bundles->present |= 1u << i;
+        bundles->longest_path = at_least(rays[j].path, bundles->longest_path);
         alpha = at_least(apart(rays[j].ray.direction, direction), alpha);
         beta = at_least(apart(rays[j].ray.origin, origin), beta);
         t_max = at_least(rays[j].ray.t_max, t_max);
         if (rays[j].ray.t_min < t_min) t_min = rays[j].ray.t_min;
     }
-    bundles->alpha[i] = alpha + DIRECTION_ROUNDING + LENGTH_SLACK;
-    bundles->beta[i] = beta + beta * DIRECTION_ROUNDING;
+    for (int axis = 0; axis < 3; ++axis) {
+        bundles->origin[axis][i] = plain ? origin[axis] : 0.0f;
+        bundles->direction[axis][i] = plain ? direction[axis] : (float)(axis == 2);
+    }
+    bundles->alpha[i] = plain ? alpha + DIRECTION_ROUNDING + LENGTH_SLACK : 0.0f;
+    bundles->beta[i] = plain ? beta + beta * DIRECTION_ROUNDING : 0.0f;
     bundles->t_min[i] = plain ? t_min : 0.0f;
     bundles->t_max[i] = t_max;
-    if (members > 0.0f) bundles->present |= 1u << i;
-    if (plain && bundles->alpha[i] < WIDEST_ALPHA && beta < FLT_MAX) bundles->usable |= 1u << i;
+    if (plain && bundles->alpha[i] < WIDEST_ALPHA && bundles->beta[i] <= FLT_MAX) {
+        bundles->usable |= 1u << i;
+    }
 }
 
 void spti_bundles_of_rays(const spt_camera_ray *rays, spti_bundles *bundles) {
     bundles->present = bundles->usable = 0;
+    bundles->longest_path = 0.0f;
     for (size_t i = 0; i < SPTI_BUNDLES; ++i) bundle_rays(rays + i * SPTI_GROUP, i, bundles);
     finish(bundles);
 }
@@ -238,8 +262,8 @@ static unsigned count_bits(unsigned bits) {
     return count;
 }
 
-uint64_t spti_bundles_walk(const spti_bundles *bundles, const spti_call *call, uint32_t budget,
-                           float t[SPTI_BUNDLES]) {
+uint64_t spti_bundles_walk(const spti_bundles *bundles, const spti_call *call, uint32_t steps,
+                           float t[SPTI_BUNDLES], int *more) {
     const spti_cone_kernels *const kernels = spti_cone_kernels_of[call->isa];
     spti_walk walk;
     uint64_t evaluations = 0;
@@ -258,12 +282,13 @@ uint64_t spti_bundles_walk(const spti_bundles *bundles, const spti_call *call, u
         walking |= (unsigned)walks << i;
         if (bundles->usable >> i & 1 && !walks) walk.t[i] = INFINITY;
     }
-    for (uint32_t step = 0; walking != 0 && step < budget; ++step) {
+    for (uint32_t step = 0; walking != 0 && step < steps; ++step) {
         kernels->points(bundles, &walk);
         ask(call, &walk, walking);
         evaluations += count_bits(walking);
         walking = kernels->advance(bundles, &walk);
     }
+    *more = walking != 0;
     for (size_t i = 0; i < SPTI_BUNDLES; ++i) {
         if (bundles->usable >> i & 1) t[i] = walk.t[i];
     }

@@ -38,8 +38,9 @@ typedef struct spti_bundles {
     SPTI_ALIGNED(64) float floor_at_0[SPTI_BUNDLES]; /* SPTI_FLOOR |origin|_inf */
     float widest_alpha, widest_beta;                 /* of the usable ones */
     float origin_low[3], origin_high[3];
-    unsigned present; /* slots that stand for a bundle, and */
-    unsigned usable;  /* those narrow enough to be sent ahead */
+    float longest_path; /* that their rays have travelled before */
+    unsigned present;   /* slots that stand for a bundle, and */
+    unsigned usable;    /* those narrow enough to be sent ahead */
 } spti_bundles;
 
 /* A walk of bundles along one component. */
@@ -81,10 +82,11 @@ void spti_bundles_of(const spti_view *view, spti_isa isa, unsigned present,
  * there are 256. */
 void spti_bundles_of_rays(const spt_camera_ray *rays, spti_bundles *bundles);
 
-/* Sends the usable bundles ahead along a component: t[i] is where its rays are free of it up to, at
- * least what it was; +infinity: it cannot be met. Returns the evaluations spent. */
-uint64_t spti_bundles_walk(const spti_bundles *bundles, const spti_call *call, uint32_t budget,
-                           float t[SPTI_BUNDLES]);
+/* Sends the usable bundles ahead along a component, by at most so many steps: t[i] is where its rays
+ * are free of it up to, at least what it was; +infinity: it cannot be met. Returns the evaluations
+ * spent; *more: whether some bundles could go on. */
+uint64_t spti_bundles_walk(const spti_bundles *bundles, const spti_call *call, uint32_t steps,
+                           float t[SPTI_BUNDLES], int *more);
 
 /* The same by the component's bound alone, without evaluations. */
 void spti_bundles_enter(const spti_bundles *bundles, const spti_call *call, float t[SPTI_BUNDLES]);

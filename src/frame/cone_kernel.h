@@ -64,7 +64,8 @@ SPTI_INLINE void cone_enter(const spti_bundles *bundles, const spt_bound *grown,
 SPTI_INLINE void cone_points(const spti_bundles *bundles, spti_walk *walk) {
     const spt_bound *const bound = walk->bound;
     for (size_t at = 0; at < SPTI_BUNDLES; at += SPT_LANES) {
-        const spt_wide t = spt_load(&walk->t[at]);
+        const spt_mask walks = spt_less(spt_splat(0.0f), spt_load(&walk->walks[at]));
+        const spt_wide t = spt_select(walks, spt_load(&walk->t[at]), spt_splat(0.0f));
         spt_wide point[3], gap = spt_splat(0.0f);
         for (int axis = 0; axis < 3; ++axis) {
             const spt_wide along = spt_mul(t, spt_load(&bundles->direction[axis][at]));
@@ -117,24 +118,28 @@ SPTI_INLINE spt_wide cone_distance(const spti_walk *walk, size_t at) {
 
 /* A step is (distance - beta - alpha t) / (1 + alpha): the slice of the cone at its end, wider by
  * alpha times the step, is still within the sphere. (Stepping by the distance and testing at the
- * samples, as printed, skips surfaces between them.) The rounding floor is kept back. */
+ * samples, as printed, skips surfaces between them.) The cone is as much wider as rays reach a
+ * surface before they touch it, so that it passes nothing that they would hit, and the rounding
+ * floor is kept back. */
 SPTI_INLINE unsigned cone_advance(const spti_bundles *bundles, spti_walk *walk) {
     const spt_wide one = spt_splat(1.0f), zero = spt_splat(0.0f), infinity = spt_splat(INFINITY);
+    const spt_wide pixel_radius = spt_splat(walk->pixel_radius);
+    const spt_wide reached_at_0 =
+        spt_add(spt_splat(walk->epsilon), spt_mul(pixel_radius, spt_splat(bundles->longest_path)));
     unsigned still = 0;
     for (size_t at = 0; at < SPTI_BUNDLES; at += SPT_LANES) {
-        const spt_wide t = spt_load(&walk->t[at]), alpha = spt_load(&bundles->alpha[at]);
-        const spt_wide width = spt_add(spt_load(&bundles->beta[at]), spt_mul(alpha, t));
+        const spt_mask walks = spt_less(zero, spt_load(&walk->walks[at]));
+        const spt_wide held = spt_load(&walk->t[at]), t = spt_select(walks, held, zero);
+        const spt_wide alpha = spt_add(spt_load(&bundles->alpha[at]), pixel_radius);
+        const spt_wide beta = spt_add(spt_load(&bundles->beta[at]), reached_at_0);
+        const spt_wide width = spt_add(beta, spt_mul(alpha, t));
         const spt_wide floor =
             spt_add(spt_add(spt_load(&bundles->floor_at_0[at]), spt_splat(walk->floor_of_size)),
                     spt_mul(spt_splat(SPTI_FLOOR), t));
         const spt_wide distance = cone_distance(walk, at);
         const spt_wide free =
             spt_div(spt_sub(spt_sub(distance, width), floor), spt_add(one, alpha));
-        const spt_wide pixel = spt_mul(spt_splat(walk->pixel_radius), t);
-        const spt_wide tolerance =
-            spt_max(spt_mul(spt_splat(0.1f), width),
-                    spt_max(spt_splat(walk->epsilon), spt_max(pixel, floor)));
-        const spt_mask walks = spt_less(zero, spt_load(&walk->walks[at]));
+        const spt_wide tolerance = spt_max(spt_mul(spt_splat(0.1f), width), floor);
         const spt_mask goes = spti_less_in(walks, tolerance, free);
         spt_wide step = free;
         spt_mask never = spt_mask_splat(0);
@@ -158,7 +163,7 @@ SPTI_INLINE unsigned cone_advance(const spti_bundles *bundles, spti_walk *walk) 
         const spt_wide t_out = spt_load(&walk->t_out[at]);
         const spt_mask past = spt_mask_or(never, spt_less(t_out, next));
         const spt_mask on = spt_mask_and_not(goes, past);
-        spt_store(&walk->t[at], spt_select(goes, spt_select(past, infinity, next), t));
+        spt_store(&walk->t[at], spt_select(goes, spt_select(past, infinity, next), held));
         spt_store(&walk->walks[at], spt_select(on, one, zero));
         still |= spt_mask_bits(on) << at;
     }

@@ -7,7 +7,10 @@
 #include <float.h>
 #include <math.h>
 
-enum { CONE_BUDGET = 64, CHUNKS_A_SIDE = SPT_TILE / SPTI_CHUNK_SIDE, BLOCK_SIDE = 4 };
+/* A walk takes at most SPT_BATCH evaluations: a progressive frame can be left after each. */
+enum { WALK_STEPS = SPT_BATCH / SPTI_BUNDLES, MOST_WALKS = 4 };
+
+enum { CHUNKS_A_SIDE = SPT_TILE / SPTI_CHUNK_SIDE, BLOCK_SIDE = 4 };
 
 /* ---- Memory --------------------------------------------------------------------------------- */
 
@@ -16,16 +19,23 @@ static size_t whole_lines(size_t size) {
 }
 
 /* The bytes of a component beside the union's. */
-static size_t bytes_a_component(void) {
-    return sizeof(spti_call) + 1 + 2 * sizeof(uint32_t) + 2 * SPTI_BUNDLES * sizeof(float) +
-           SPT_BATCH * sizeof(float);
+static size_t bytes_a_component(size_t chunks) {
+    return sizeof(spti_call) + 2 + 3 * sizeof(uint32_t) +
+           (2 + chunks) * SPTI_BUNDLES * sizeof(float) + chunks * SPT_BATCH * sizeof(float);
+}
+
+/* Chunks in a pool. What a component needs grows with it, so large scenes do with one. */
+static size_t pool_of(size_t components) {
+    return components <= 256 ? 4 : 1;
 }
 
 size_t spti_desk_size(size_t components) {
-    const size_t lazy = spti_union_size(components, SPT_BATCH);
-    if (lazy == 0 || components > (SIZE_MAX - lazy) / 2 / bytes_a_component()) return 0;
-    return whole_lines(sizeof(spti_desk)) + lazy + components * bytes_a_component() +
-           (size_t)8 * 64;
+    const size_t chunks = pool_of(components), each = bytes_a_component(chunks);
+    const size_t lazy = spti_union_size(components, chunks * SPT_BATCH);
+    const size_t lines = 16 * 64; /* that arrays begin on whole ones */
+    if (lazy == 0 || components > (SIZE_MAX - lazy) / 2 / each) return 0;
+    return whole_lines(sizeof(spti_desk) + lazy + components * each +
+                       chunks * SPT_BATCH * sizeof(size_t) + lines);
 }
 
 static char *take(char **memory, size_t size) {
@@ -40,11 +50,17 @@ spti_desk *spti_desk_place(void *memory, size_t components) {
     desk->calls = (spti_call *)(void *)take(&left, components * sizeof *desk->calls);
     desk->tile_t = (float *)(void *)take(&left, components * SPTI_BUNDLES * sizeof(float));
     desk->block_t = (float *)(void *)take(&left, components * SPTI_BUNDLES * sizeof(float));
-    desk->starts = (float *)(void *)take(&left, components * SPT_BATCH * sizeof(float));
+    const size_t chunks = pool_of(components), rays = chunks * SPT_BATCH;
+    desk->most_pooled = chunks;
+    desk->pool_t = (float *)(void *)take(&left, components * chunks * SPTI_BUNDLES * sizeof(float));
+    desk->starts = (float *)(void *)take(&left, components * rays * sizeof(float));
+    desk->places = (size_t *)(void *)take(&left, rays * sizeof(size_t));
+    desk->chunk_list = (uint32_t *)(void *)take(&left, components * sizeof(uint32_t));
+    desk->in_pool = (unsigned char *)take(&left, components);
     desk->tile_list = (uint32_t *)(void *)take(&left, components * sizeof(uint32_t));
     desk->list = (uint32_t *)(void *)take(&left, components * sizeof(uint32_t));
     desk->settled = (unsigned char *)take(&left, components);
-    spti_union_place(&desk->lazy, left, components, SPT_BATCH);
+    spti_union_place(&desk->lazy, left, components, rays);
     return desk;
 }
 
@@ -62,9 +78,9 @@ void spti_desk_begin(spti_desk *desk, const spti_job *job, const spt_settings *s
     desk->cone_evaluations = desk->kept = desk->culled = 0;
     memset(desk->settled, 0, job->scene.count);
     spti_union_scene(lazy, desk->calls, desk->list, &job->scene, settings);
-    lazy->rays = &desk->columns;
-    lazy->first = 0;
-    lazy->count = SPT_BATCH;
+    memset(desk->in_pool, 0, job->scene.count);
+    desk->pooled = 0;
+    spti_union_clear(lazy);
 }
 
 static spti_call *call_of(spti_desk *desk, uint32_t component) {
@@ -107,52 +123,73 @@ static void squares(const spti_desk *desk, uint32_t x, uint32_t y, uint32_t side
         present |= (unsigned)inside << i;
     }
     spti_bundles_of(&desk->job->view, desk->isa, present, (const float(*)[4])rectangles, bundles);
+    /* A cone around a single ray is none. */
+    for (uint32_t i = 0; side > 1 && i < SPTI_BUNDLES; ++i) {
+        const uint32_t left = x + i % 4 * side, top = y + i / 4 * side;
+        if (left + 1 == desk->grid.width && top + 1 == desk->grid.height) {
+            bundles->usable &= ~(1u << i);
+        }
+    }
 }
 
-/* Sends bundles ahead along a component, or where they do not walk, up to its bound. Returns those
- * that may meet it. */
-static unsigned send(spti_desk *desk, const spti_bundles *bundles, uint32_t component, int walk,
-                     float t[SPTI_BUNDLES]) {
+/* Sends the bundles ahead along a component by one walk, or where they do not walk, up to its bound.
+ * Returns whether they are there; *met: those that may meet it. */
+static int send(spti_desk *desk, uint32_t component, int walk, float t[SPTI_BUNDLES],
+                unsigned *met) {
+    const spti_bundles *const bundles = &desk->bundles;
     const spti_call *const call = call_of(desk, component);
     const int culls = !(desk->job->frame.flags & SPT_FRAME_NO_CULLING);
     float before[SPTI_BUNDLES];
-    unsigned met = 0;
+    int more = 0;
     memcpy(before, t, sizeof before);
+    *met = 0;
     if (walk && !(desk->job->frame.flags & SPT_FRAME_NO_CONES)) {
-        const uint32_t budget =
-            desk->settings.budget < CONE_BUDGET ? desk->settings.budget : CONE_BUDGET;
-        desk->cone_evaluations += spti_bundles_walk(bundles, call, budget, t);
+        const uint32_t steps =
+            desk->settings.budget < WALK_STEPS ? desk->settings.budget : WALK_STEPS;
+        const uint64_t evaluations = spti_bundles_walk(bundles, call, steps, t, &more);
+        desk->cone_evaluations += evaluations;
+        desk->lazy.allowance -= (int64_t)evaluations;
     } else if (culls) {
         spti_bundles_enter(bundles, call, t);
     }
     for (size_t i = 0; i < SPTI_BUNDLES; ++i) {
         if (!culls && !(t[i] < INFINITY)) t[i] = before[i];
-        if (t[i] < INFINITY) met |= 1u << i;
+        if (t[i] < INFINITY) *met |= 1u << i;
     }
-    return met & bundles->present;
+    *met &= bundles->present;
+    desk->walks = more && desk->walks + 1 < MOST_WALKS ? desk->walks + 1 : 0;
+    return desk->walks == 0;
 }
 
 /* ---- Tiles ---------------------------------------------------------------------------------- */
 
-void spti_desk_tile(spti_desk *desk, uint32_t column, uint32_t row, int walk) {
-    const size_t components = desk->job->scene.count;
-    spti_bundles bundles;
+void spti_desk_tile(spti_desk *desk, uint32_t column, uint32_t row) {
     desk->tile_column = column;
     desk->tile_row = row;
     desk->tile_listed = 0;
-    if (!has_rays_of_its_own(desk)) {
-        squares(desk, column * SPT_TILE, row * SPT_TILE, SPTI_CHUNK_SIDE, &bundles);
-    }
-    for (size_t component = 0; component < components; ++component) {
-        float *const t = desk->tile_t + component * SPTI_BUNDLES;
-        for (size_t i = 0; i < SPTI_BUNDLES; ++i) t[i] = 0.0f;
-        if (!has_rays_of_its_own(desk) && !send(desk, &bundles, (uint32_t)component, walk, t)) {
-            continue;
+    desk->next = 0;
+    desk->walks = 0;
+    if (has_rays_of_its_own(desk)) return;
+    squares(desk, column * SPT_TILE, row * SPT_TILE, SPTI_CHUNK_SIDE, &desk->bundles);
+}
+
+int spti_desk_tile_cones(spti_desk *desk, int walk) {
+    const size_t components = desk->job->scene.count;
+    for (; desk->next < components; ++desk->next) {
+        const uint32_t component = (uint32_t)desk->next;
+        float *const t = desk->tile_t + desk->next * SPTI_BUNDLES;
+        unsigned met = 1;
+        int there = has_rays_of_its_own(desk);
+        for (size_t i = 0; desk->walks == 0 && i < SPTI_BUNDLES; ++i) t[i] = 0.0f;
+        for (int turn = 0; !there && turn < MOST_WALKS; ++turn) {
+            if (desk->lazy.allowance <= 0) return 0;
+            there = send(desk, component, walk, t, &met);
         }
-        desk->tile_list[desk->tile_listed++] = (uint32_t)component;
+        if (met) desk->tile_list[desk->tile_listed++] = component;
     }
     desk->kept += desk->tile_listed;
     desk->culled += components - desk->tile_listed;
+    return 1;
 }
 
 /* ---- Chunks --------------------------------------------------------------------------------- */
@@ -167,16 +204,24 @@ static int place_rays(spti_desk *desk) {
     const spti_grid *const grid = &desk->grid;
     const spti_rectangle *const part = &grid->part;
     const uint32_t side = SPTI_CHUNK_SIDE;
+    float across[SPTI_CHUNK_SIDE], down[SPTI_CHUNK_SIDE];
     int any = 0;
     desk->all = desk->left >= part->x_0 && desk->left + side <= part->x_1 &&
                 desk->top >= part->y_0 && desk->top + side <= part->y_1;
-    for (size_t i = 0; i < SPT_BATCH; ++i) {
-        const uint32_t column = spti_desk_column(desk, i), row = spti_desk_row(desk, i);
-        const uint32_t x = column < grid->width ? column : grid->width - 1;
-        const uint32_t y = row < grid->height ? row : grid->height - 1;
-        desk->x[i] = ((float)x + 0.5f) * grid->step_x;
-        desk->y[i] = ((float)y + 0.5f) * grid->step_y;
-        desk->places[i] = spti_desk_place_of(desk, i);
+    for (uint32_t i = 0; i < side; ++i) {
+        const uint32_t x = desk->left + i < grid->width ? desk->left + i : grid->width - 1;
+        const uint32_t y = desk->top + i < grid->height ? desk->top + i : grid->height - 1;
+        across[i] = ((float)x + 0.5f) * grid->step_x;
+        down[i] = ((float)y + 0.5f) * grid->step_y;
+    }
+    for (size_t i = 0; i < SPT_BATCH; i += 4) { /* a row of a block */
+        const size_t left = i / 16 % 4 * 4, row = i / 64 * 4 + i / 4 % 4;
+        const size_t place = spti_desk_place_of(desk, i);
+        for (size_t k = 0; k < 4; ++k) {
+            desk->x[i + k] = across[left + k];
+            desk->y[i + k] = down[row];
+            desk->own_places[i + k] = place + k;
+        }
     }
     if (desk->all) return 1;
     for (size_t i = 0; i < SPT_BATCH; ++i) {
@@ -228,9 +273,9 @@ static void cut_at_depths(spti_desk *desk) {
         const float before = own ? desk->t_max[i] : desk->job->view.t_max;
         desk->t_max[i] = before;
         if (!desk->all && desk->active[i] == 0) continue;
-        memcpy(&t, (const char *)depths->first + (ptrdiff_t)desk->places[i] * depths->stride,
+        memcpy(&t, (const char *)depths->first + (ptrdiff_t)desk->own_places[i] * depths->stride,
                sizeof t);
-        desk->t_max[i] = before < t ? before : t; /* NaN stays, a bad ray */
+        if (t < before || !(t <= INFINITY)) desk->t_max[i] = t; /* NaN stays, a bad ray */
     }
     set_column(&desk->columns.t_max, desk->t_max, 4);
 }
@@ -257,102 +302,143 @@ static int make_rays(spti_desk *desk) {
     return 1;
 }
 
-int spti_desk_chunk(spti_desk *desk, size_t index, int walk) {
+int spti_desk_chunk(spti_desk *desk, size_t index) {
     const uint32_t side = SPTI_CHUNK_SIDE;
-    spti_bundles bundles;
-    size_t listed = 0;
+    desk->chunk = index;
     desk->left = desk->tile_column * SPT_TILE + (uint32_t)(index % CHUNKS_A_SIDE) * side;
     desk->top = desk->tile_row * SPT_TILE + (uint32_t)(index / CHUNKS_A_SIDE) * side;
     if (desk->left >= desk->grid.width || desk->top >= desk->grid.height) return 0;
     if (!make_rays(desk)) return 0;
     if (has_rays_of_its_own(desk)) {
-        spti_bundles_of_rays(desk->camera_rays, &bundles);
+        spti_bundles_of_rays(desk->camera_rays, &desk->bundles);
     } else {
-        squares(desk, desk->left, desk->top, BLOCK_SIDE, &bundles);
+        squares(desk, desk->left, desk->top, BLOCK_SIDE, &desk->bundles);
     }
-    for (size_t i = 0; i < desk->tile_listed; ++i) {
-        const uint32_t component = desk->tile_list[i];
-        const float tile_t = desk->tile_t[(size_t)component * SPTI_BUNDLES + index];
-        float *const t = desk->block_t + (size_t)component * SPTI_BUNDLES;
-        if (!(tile_t < INFINITY)) continue;
-        for (size_t block = 0; block < SPTI_BUNDLES; ++block) t[block] = tile_t;
-        if (send(desk, &bundles, component, walk, t)) desk->list[listed++] = component;
-    }
-    desk->lazy.listed = listed;
+    desk->chunk_listed = 0;
+    desk->next = 0;
+    desk->walks = 0;
     return 1;
 }
 
-/* Sends a cone ahead for every pixel of a block, along every component; the least t of the
- * components is where a pixel is free of all. */
-static void send_pixels(spti_desk *desk, size_t block, float *pixel_t) {
+int spti_desk_chunk_cones(spti_desk *desk, int walk) {
+    for (; desk->next < desk->tile_listed; ++desk->next) {
+        const uint32_t component = desk->tile_list[desk->next];
+        const float tile_t = desk->tile_t[(size_t)component * SPTI_BUNDLES + desk->chunk];
+        float *const t = desk->block_t + (size_t)component * SPTI_BUNDLES;
+        if (!(tile_t < INFINITY)) continue;
+        unsigned met = 0;
+        for (size_t i = 0; desk->walks == 0 && i < SPTI_BUNDLES; ++i) t[i] = tile_t;
+        for (int turn = 0, there = 0; !there && turn < MOST_WALKS; ++turn) {
+            if (desk->lazy.allowance <= 0) return 0;
+            there = send(desk, component, walk, t, &met);
+        }
+        if (met) desk->chunk_list[desk->chunk_listed++] = component;
+    }
+    return 1;
+}
+
+/* ---- Pools ---------------------------------------------------------------------------------- */
+
+/* Puts the chunk's rays into the pool, with how far its blocks came along each component. */
+static void pool_chunk(spti_desk *desk) {
+    const size_t chunk = desk->pooled++, row = desk->most_pooled * SPTI_BUNDLES;
+    for (size_t i = 0; i < desk->chunk_listed; ++i) {
+        const uint32_t component = desk->chunk_list[i];
+        float *const t = desk->pool_t + component * row;
+        if (!desk->in_pool[component]) {
+            for (size_t k = 0; k < row; ++k) t[k] = INFINITY;
+            desk->in_pool[component] = 1;
+        }
+        memcpy(t + chunk * SPTI_BUNDLES, desk->block_t + (size_t)component * SPTI_BUNDLES,
+               SPTI_BUNDLES * sizeof *t);
+    }
+    memcpy(desk->places + chunk * SPT_BATCH, desk->own_places, sizeof desk->own_places);
+    spti_union_add(&desk->lazy, &desk->columns, 0, SPT_BATCH);
+}
+
+/* Lists the pool's components, and where its rays start along each of them. */
+static void list_pool(spti_desk *desk) {
+    const size_t row = desk->most_pooled * SPTI_BUNDLES;
+    size_t listed = 0;
+    for (size_t i = 0; i < desk->tile_listed; ++i) {
+        const uint32_t component = desk->tile_list[i];
+        const float *const t = desk->pool_t + component * row;
+        float *const starts = desk->starts + listed * desk->lazy.pool;
+        if (!desk->in_pool[component]) continue;
+        for (size_t block = 0; block < desk->pooled * SPTI_BUNDLES; ++block) {
+            for (size_t k = 0; k < SPTI_GROUP; ++k) starts[block * SPTI_GROUP + k] = t[block];
+        }
+        desk->list[listed++] = component;
+        desk->in_pool[component] = 0;
+    }
+    desk->lazy.listed = listed;
+}
+
+void spti_desk_open(spti_desk *desk, const float *starts) {
+    desk->pooled = 0;
+    spti_union_clear(&desk->lazy);
+    pool_chunk(desk);
+    list_pool(desk);
+    for (size_t place = 0; starts != NULL && place < desk->lazy.listed; ++place) {
+        float *const t = desk->starts + place * desk->lazy.pool;
+        for (size_t i = 0; i < SPT_BATCH; ++i) t[i] = starts[i] > t[i] ? starts[i] : t[i];
+    }
+    desk->next = 0;
+    desk->walks = 0;
+}
+
+/* A block's pixels as bundles. The least t of the components is where a pixel is free of all. */
+static void begin_block(spti_desk *desk, size_t block, float *pixel_t) {
     const size_t first = block * SPTI_BUNDLES;
-    spti_bundles bundles;
     const uint32_t x = spti_desk_column(desk, first), y = spti_desk_row(desk, first);
     for (size_t i = 0; i < SPTI_BUNDLES; ++i) pixel_t[first + i] = FLT_MAX;
-    if (x >= desk->grid.width || y >= desk->grid.height) return;
-    squares(desk, x, y, 1, &bundles);
-    for (size_t place = 0; place < desk->lazy.listed; ++place) {
-        float *const t = desk->starts + place * SPT_BATCH + first;
-        send(desk, &bundles, desk->list[place], 1, t);
-        for (size_t i = 0; i < SPTI_BUNDLES; ++i) {
-            if (t[i] < pixel_t[first + i]) pixel_t[first + i] = t[i];
-        }
+    if (x < desk->grid.width && y < desk->grid.height) {
+        squares(desk, x, y, 1, &desk->bundles);
+    } else {
+        desk->bundles.usable = desk->bundles.present = 0;
     }
 }
 
-void spti_desk_open(spti_desk *desk, const float *starts, float *pixel_t) {
-    for (size_t place = 0; place < desk->lazy.listed; ++place) {
-        const float *const t = desk->block_t + (size_t)desk->list[place] * SPTI_BUNDLES;
-        float *const to = desk->starts + place * SPT_BATCH;
-        for (size_t i = 0; i < SPT_BATCH; ++i) {
-            const float block = t[i / SPTI_BUNDLES];
-            to[i] = starts != NULL && starts[i] > block ? starts[i] : block;
+int spti_desk_pixel_cones(spti_desk *desk, float *pixel_t) {
+    const size_t listed = desk->lazy.listed, turns = listed > 0 ? listed : 1;
+    for (; desk->next < SPTI_BUNDLES * turns; ++desk->next) {
+        const size_t block = desk->next / turns, place = desk->next % turns;
+        float *const t = desk->starts + place * desk->lazy.pool + block * SPTI_BUNDLES;
+        float *const least = pixel_t + block * SPTI_BUNDLES;
+        unsigned met;
+        if (desk->walks == 0 && place == 0) begin_block(desk, block, pixel_t);
+        for (int turn = 0, there = listed == 0; !there && turn < MOST_WALKS; ++turn) {
+            if (desk->lazy.allowance <= 0) return 0;
+            there = send(desk, desk->list[place], 1, t, &met);
         }
+        if (listed == 0) continue;
+        for (size_t i = 0; i < SPTI_BUNDLES; ++i) least[i] = t[i] < least[i] ? t[i] : least[i];
     }
-    for (size_t block = 0; pixel_t != NULL && block < SPTI_BUNDLES; ++block) {
-        send_pixels(desk, block, pixel_t);
-    }
-    spti_union_begin(&desk->lazy, desk->starts);
+    return 1;
+}
+
+void spti_desk_enter(spti_desk *desk) {
+    spti_union_enter(&desk->lazy, desk->starts);
+}
+
+void spti_desk_flush(spti_desk *desk, const spt_hits *image) {
+    if (desk->pooled == 0) return;
+    list_pool(desk);
+    spti_union_enter(&desk->lazy, desk->starts);
+    spti_union_run(&desk->lazy);
+    spti_desk_write(desk, image);
+    desk->pooled = 0;
+    spti_union_clear(&desk->lazy);
 }
 
 /* ---- Tracing -------------------------------------------------------------------------------- */
 
-enum { RESULTS = 9 };
-
-/* The sinks of an image one by one. */
-static void list_sinks(const spt_hits *hits, spt_sink sinks[RESULTS]) {
-    const spt_sink all[RESULTS] = {hits->t,           hits->residual,        hits->outcome,
-                                   hits->evaluations, hits->flags,           hits->component,
-                                   hits->candidate_t, hits->candidate_ratio, hits->fallbacks};
-    memcpy(sinks, all, sizeof all);
-}
-
-/* Brings what was asked for from desk->alone to the image. */
-static void write_alone(const spti_desk *desk, const spt_hits *image) {
-    const spt_hits all = spt_hits_of((spt_hit *)(uintptr_t)desk->alone); /* only read */
-    spt_sink from[RESULTS], to[RESULTS];
-    list_sinks(&all, from);
-    list_sinks(image, to);
-    for (int result = 0; result < RESULTS; ++result) {
-        char *const base = to[result].first;
-        const char *const source = from[result].first;
-        const ptrdiff_t stride = to[result].stride;
-        if (base == NULL) continue;
-        for (size_t i = 0; i < SPT_BATCH; ++i) {
-            if (!desk->all && desk->active[i] == 0) continue;
-            memcpy(base + (ptrdiff_t)desk->places[i] * stride, source + i * sizeof(spt_hit), 4);
-        }
-    }
-}
-
 /* A chunk that can meet nothing. */
-static void miss_all(spti_desk *desk) {
-    static const spt_hit miss = {INFINITY, INFINITY, SPT_MISS, 0, 0, -1, INFINITY, INFINITY, 0};
+static void miss_all(spti_desk *desk, const spt_hits *image) {
+    const int32_t *const active = desk->all ? NULL : desk->active;
     uint64_t rays = 0;
-    for (size_t i = 0; i < SPT_BATCH; ++i) {
-        desk->alone[i] = miss;
-        rays += desk->all || desk->active[i] != 0;
-    }
+    spti_write_misses(SPT_BATCH, active, desk->own_places, image);
+    for (size_t i = 0; i < SPT_BATCH; ++i) rays += active == NULL || active[i] != 0;
     if (desk->statistics != NULL) {
         desk->statistics->rays += rays;
         desk->statistics->outcomes[SPT_MISS] += rays;
@@ -361,59 +447,43 @@ static void miss_all(spti_desk *desk) {
 
 /* A chunk that can meet one component only needs no union: it is traced as spt_trace() does. */
 static void trace_alone(spti_desk *desk, const spt_hits *image) {
-    const uint32_t component = desk->list[0];
+    const uint32_t component = desk->chunk_list[0];
     const float *const t = desk->block_t + (size_t)component * SPTI_BUNDLES;
-    const spt_hits all = spt_hits_of(desk->alone);
-    spt_hits sinks = all;
     spt_rays columns = desk->columns;
     spti_call call = *call_of(desk, component);
     for (size_t i = 0; i < SPT_BATCH; ++i) {
         const float own = has_rays_of_its_own(desk) ? desk->t_min[i] : desk->job->view.t_min;
         const float start = t[i / SPTI_BUNDLES] < FLT_MAX ? t[i / SPTI_BUNDLES] : FLT_MAX;
-        desk->t_min[i] = start > own ? start : own; /* NaN stays, a bad ray */
+        desk->t_min[i] = own >= 0.0f && start > own ? start : own; /* a bad ray stays one */
     }
     set_column(&columns.t_min, desk->t_min, 4);
-    if (image->t.first == NULL) sinks.t.first = NULL;
-    if (image->residual.first == NULL) sinks.residual.first = NULL;
-    if (image->outcome.first == NULL) sinks.outcome.first = NULL;
-    if (image->evaluations.first == NULL) sinks.evaluations.first = NULL;
-    if (image->flags.first == NULL) sinks.flags.first = NULL;
-    if (image->component.first == NULL) sinks.component.first = NULL;
-    if (image->candidate_t.first == NULL) sinks.candidate_t.first = NULL;
-    if (image->candidate_ratio.first == NULL) sinks.candidate_ratio.first = NULL;
-    if (image->fallbacks.first == NULL) sinks.fallbacks.first = NULL;
     call.rays = &columns;
-    call.hits = &sinks;
+    call.hits = image;
+    call.places = desk->own_places;
+    call.component = (int32_t)component;
     call.leave = spti_write_hits;
     call.stop = NULL;
     call.allowance = NULL;
     spti_call_settle(&call);
     call.field.lipschitz = 1.0f; /* slopes are counted relative to it */
     spti_trace_chunk(&call, &desk->lazy.chunk, 0, SPT_BATCH);
-    for (size_t i = 0; i < SPT_BATCH && image->component.first != NULL; ++i) {
-        if (desk->alone[i].component == 0) desk->alone[i].component = (int32_t)component;
-    }
 }
 
 void spti_desk_trace(spti_desk *desk, const spt_hits *image) {
-    const size_t listed = desk->lazy.listed;
-    if (listed == 0 && !has_rays_of_its_own(desk)) {
-        miss_all(desk);
-        write_alone(desk, image);
-    } else if (listed == 1 && desk->lazy.zone_count == 0) {
+    const int may_be_bad = has_rays_of_its_own(desk) || desk->job->frame.t_max.first != NULL;
+    if (desk->chunk_listed == 0 && !may_be_bad) {
+        miss_all(desk, image);
+    } else if (desk->chunk_listed == 1 && desk->lazy.zone_count == 0) {
         trace_alone(desk, image);
-        write_alone(desk, image);
     } else {
-        spti_desk_open(desk, NULL, NULL);
-        spti_union_run(&desk->lazy);
-        spti_desk_write(desk, image);
+        pool_chunk(desk);
+        if (desk->pooled == desk->most_pooled) spti_desk_flush(desk, image);
     }
 }
 
 void spti_desk_write(const spti_desk *desk, const spt_hits *image) {
-    const spti_record *const records = desk->lazy.records;
-    if (image != NULL) spti_records_write(records, SPT_BATCH, image, 0, desk->places);
-    if (desk->statistics != NULL) spti_records_count(records, SPT_BATCH, desk->statistics);
+    if (image != NULL) spti_union_write(&desk->lazy, image, 0, desk->places);
+    if (desk->statistics != NULL) spti_union_count(&desk->lazy, desk->statistics);
 }
 
 void spti_desk_adopt(spti_desk *desk, spt_statistics *statistics) {

@@ -25,10 +25,22 @@ typedef struct spti_desk {
     uint32_t *tile_list;    /* components that the tile may meet */
     size_t tile_listed;
     uint32_t tile_column, tile_row;
-    float *tile_t;  /* by component: t of the tile's chunks, */
-    float *block_t; /* and of a chunk's blocks of 4x4 */
-    uint32_t *list; /* components that the chunk may meet */
-    float *starts;  /* by place in that list: t of the chunk's rays */
+    size_t chunk;         /* its number in the tile */
+    spti_bundles bundles; /* that are on their way, and */
+    size_t next;          /* along which component, */
+    int walks;            /* and how many walks of that are done */
+    float *tile_t;        /* by component: t of the tile's chunks, */
+    float *block_t;       /* and of a chunk's blocks of 4x4 */
+    uint32_t *chunk_list; /* components that the chunk may meet */
+    size_t chunk_listed;
+
+    /* Chunks that meet several components are traced together, so that batches fill. */
+    size_t pooled, most_pooled;
+    unsigned char *in_pool; /* by component: whether one of the chunks may meet it */
+    float *pool_t;          /* and t of their blocks */
+    uint32_t *list;         /* components that they may meet */
+    float *starts;          /* by place in that list: t of their rays */
+    size_t *places;         /* of their rays in an image of the part, if active */
     spti_union lazy;
 
     /* The chunk: ray 16 b + i is pixel i of block b, row by row in both. */
@@ -41,8 +53,7 @@ typedef struct spti_desk {
     SPTI_ALIGNED(64) float x[SPT_BATCH]; /* in pixels of the full image */
     SPTI_ALIGNED(64) float y[SPT_BATCH];
     spt_camera_ray camera_rays[SPT_BATCH];
-    size_t places[SPT_BATCH]; /* in an image of the part, of the active ones */
-    spt_hit alone[SPT_BATCH]; /* results of a chunk that meets one component only */
+    size_t own_places[SPT_BATCH]; /* in an image of the part, if active */
 } spti_desk;
 
 /* Bytes for a desk of so many components; 0: more than size_t holds. */
@@ -55,31 +66,34 @@ spti_desk *spti_desk_place(void *memory, size_t components);
 void spti_desk_begin(spti_desk *desk, const spti_job *job, const spt_settings *settings,
                      const spti_grid *grid, const spt_hits *wanted, spt_statistics *statistics);
 
-/* Turns to a tile of the grid. walk: whether its cones are sent ahead; otherwise bounds alone tell
- * what it may meet. */
-void spti_desk_tile(spti_desk *desk, uint32_t column, uint32_t row, int walk);
+/* Turns to a tile of the grid, and sends its cones ahead along every component, each time as far as
+ * the union's allowance goes; returns whether all are there. walk: 0 where bounds alone are to tell
+ * what the tile may meet. */
+void spti_desk_tile(spti_desk *desk, uint32_t column, uint32_t row);
+int spti_desk_tile_cones(spti_desk *desk, int walk);
 
-/* Turns to chunk number `index` of the tile; returns 0 where none of its pixels is to be traced. */
-int spti_desk_chunk(spti_desk *desk, size_t index, int walk);
+/* Turns to chunk number `index` of the tile; returns 0 where none of its pixels is to be traced. And
+ * its cones, likewise. */
+int spti_desk_chunk(spti_desk *desk, size_t index);
+int spti_desk_chunk_cones(spti_desk *desk, int walk);
 
-/* Begins its rays, which desk->lazy then traces. starts: where they are known to be free up to, by
- * ray, or NULL. pixel_t: where not NULL, a cone is sent ahead for each pixel, and its t put there. */
-void spti_desk_open(spti_desk *desk, const float *starts, float *pixel_t);
-
-/* Traces the chunk from its cones on to an image of the part, at one go. */
+/* Traces it from its cones on to an image of the part, now or with others: */
 void spti_desk_trace(spti_desk *desk, const spt_hits *image);
 
-/* Counts the chunk's rays, and writes their results to an image of the part, unless it is NULL. */
+/* by now. */
+void spti_desk_flush(spti_desk *desk, const spt_hits *image);
+
+/* Or alone, and step by step: its rays are pooled (starts: where they are known to be free up to, by
+ * ray, or NULL); a cone may be sent ahead for each pixel, likewise, and its t put into pixel_t; and
+ * desk->lazy has what it needs to trace them. */
+void spti_desk_open(spti_desk *desk, const float *starts);
+int spti_desk_pixel_cones(spti_desk *desk, float *pixel_t);
+void spti_desk_enter(spti_desk *desk);
+
+/* Counts the pool's rays, and writes their results to an image of the part, unless it is NULL. */
 void spti_desk_write(const spti_desk *desk, const spt_hits *image);
 
-/* The record of a ray of the chunk, a miss where it is not active; */
-static inline spti_record spti_desk_record(const spti_desk *desk, size_t ray) {
-    spti_record record = desk->lazy.records[ray];
-    record.active = 1;
-    return record;
-}
-
-/* and a limit of it. */
+/* A limit of a ray of the chunk. */
 static inline float spti_desk_limit(const spt_column *limits, size_t ray) {
     float t;
     memcpy(&t, (const char *)limits->first + (ptrdiff_t)ray * limits->stride, sizeof t);
@@ -101,8 +115,8 @@ static inline uint32_t spti_desk_row(const spti_desk *desk, size_t ray) {
 /* And in an image of the grid's part. */
 static inline size_t spti_desk_place_of(const spti_desk *desk, size_t ray) {
     const spti_rectangle *const part = &desk->grid.part;
-    return (size_t)(spti_desk_row(desk, ray) - part->y_0) * (part->x_1 - part->x_0) +
-           (spti_desk_column(desk, ray) - part->x_0);
+    return ((size_t)spti_desk_row(desk, ray) - part->y_0) * (part->x_1 - part->x_0) +
+           ((size_t)spti_desk_column(desk, ray) - part->x_0);
 }
 
 #endif

@@ -51,10 +51,14 @@ static void trace_tile(spti_desk *desk, size_t index, const spt_hits *image) {
     spt_statistics *const statistics = desk->statistics;
     uint32_t column, row;
     spti_job_tile(desk->job, index, &column, &row);
-    spti_desk_tile(desk, column, row, 1);
+    spti_desk_tile(desk, column, row);
+    spti_desk_tile_cones(desk, 1);
     for (size_t chunk = 0; chunk < SPTI_CHUNKS; ++chunk) {
-        if (spti_desk_chunk(desk, chunk, 1)) spti_desk_trace(desk, image);
+        if (!spti_desk_chunk(desk, chunk)) continue;
+        spti_desk_chunk_cones(desk, 1);
+        spti_desk_trace(desk, image);
     }
+    spti_desk_flush(desk, image);
     if (statistics != NULL) {
         statistics->cone_evaluations += desk->cone_evaluations;
         statistics->kept += desk->kept;

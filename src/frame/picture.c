@@ -87,7 +87,8 @@ spt_status spt_frame_picture(const spt_frame *frame, const void *state, size_t s
     spt_hits image;
     float colour[SPTI_MOST_CHANNELS];
     if (!spti_job_of(&job, frame) || job.frame.shade == NULL) return SPT_BAD_ARGUMENT;
-    if (state == NULL || state_size < spt_frame_state_size(frame)) return SPT_BAD_ARGUMENT;
+    if (state == NULL) return SPT_BAD_ARGUMENT;
+    if (state_size < spt_frame_state_size(frame)) return SPT_BUFFER_TOO_SMALL;
     if (picture == NULL || picture->first == NULL) return SPT_BAD_ARGUMENT;
     memset(&image, 0, sizeof image);
     image.t = *picture;

@@ -22,9 +22,8 @@ typedef struct spti_state {
     spti_level levels[SPTI_MOST_PASSES];
     spti_desk *desk;
     size_t pass;
-    uint64_t chunk; /* the next one of the pass, or the one that is open */
-    int begun_pass, open;
-    uint64_t tile; /* the desk's, plus 1; 0: none yet */
+    uint64_t chunk; /* of the pass, the one at work or the next one */
+    int begun_pass, stage;
     uint64_t pixels;
     uint64_t evaluations;
     double seconds_an_evaluation;

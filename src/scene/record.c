@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * Writes the results of a union's rays, column by column: what is absent is asked once a column. */
+ * Writes the results of a union's rays, those that are wanted. */
 #include <math.h>
 
 #include "scene_call.h"
 
-static int reached(const spti_record *record) {
+SPTI_INLINE int reached(const spti_record *record) {
     return record->outcome != SPT_MISS && record->outcome != SPT_BAD_RAY;
 }
 
@@ -16,91 +16,156 @@ typedef union record_word {
     uint32_t whole;
 } record_word;
 
-typedef record_word word_fn(const spti_record *record);
+enum {
+    T,
+    RESIDUAL,
+    OUTCOME,
+    EVALUATIONS,
+    FLAGS,
+    COMPONENT,
+    CANDIDATE_T,
+    CANDIDATE_RATIO,
+    FALLBACKS,
+    RESULTS
+};
 
-static record_word t_of(const spti_record *record) {
-    const record_word word = {.real = reached(record) ? record->t : INFINITY};
-    return word;
+/* The sinks that somebody wants. */
+typedef struct wanted {
+    int result[RESULTS];
+    char *base[RESULTS];
+    ptrdiff_t stride[RESULTS];
+    int count;
+} wanted;
+
+static wanted wanted_of(const spt_hits *hits) {
+    const spt_sink *const sinks[RESULTS] = {
+        &hits->t,           &hits->residual,        &hits->outcome,
+        &hits->evaluations, &hits->flags,           &hits->component,
+        &hits->candidate_t, &hits->candidate_ratio, &hits->fallbacks};
+    wanted all;
+    all.count = 0;
+    for (int result = 0; result < RESULTS; ++result) {
+        if (sinks[result]->first == NULL) continue;
+        all.result[all.count] = result;
+        all.base[all.count] = sinks[result]->first;
+        all.stride[all.count++] = sinks[result]->stride;
+    }
+    return all;
 }
 
-static record_word residual_of(const spti_record *record) {
-    const record_word word = {.real = reached(record) ? record->value : INFINITY};
-    return word;
+SPTI_INLINE float row(const spti_union *lazy, int what, size_t ray) {
+    return spti_union_row(lazy, what)[ray];
 }
 
-static record_word outcome_of(const spti_record *record) {
-    const record_word word = {.signed_whole = record->outcome};
-    return word;
+SPTI_INLINE int is_steep(const spti_union *lazy, size_t ray) {
+    return lazy->records[ray].steep || spti_is_steep(row(lazy, SPTI_ROW_STEEPEST, ray));
 }
 
-static record_word evaluations_of(const spti_record *record) {
-    const record_word word = {.whole = record->evaluations};
-    return word;
+SPTI_INLINE void words_of(const spti_union *lazy, size_t ray, record_word words[RESULTS]) {
+    const spti_record *const record = &lazy->records[ray];
+    const float unit = row(lazy, SPTI_ROW_UNIT, ray);
+    const int there = row(lazy, SPTI_ROW_CANDIDATE_RATIO, ray) < INFINITY;
+    const uint32_t steep = is_steep(lazy, ray) ? SPT_FLAG_STEEP : 0u;
+    words[T].real = reached(record) ? row(lazy, SPTI_ROW_NEAREST, ray) * unit : INFINITY;
+    words[RESIDUAL].real = reached(record) ? row(lazy, SPTI_ROW_VALUE, ray) : INFINITY;
+    words[OUTCOME].signed_whole = record->outcome;
+    words[EVALUATIONS].real = row(lazy, SPTI_ROW_SPENT, ray); /* bits */
+    words[FLAGS].whole = steep | (record->inside ? SPT_FLAG_INSIDE : 0u);
+    words[COMPONENT].signed_whole = record->outcome == SPT_HIT ? record->component : -1;
+    words[CANDIDATE_T].real = there ? row(lazy, SPTI_ROW_CANDIDATE_T, ray) * unit : INFINITY;
+    words[CANDIDATE_RATIO].real = row(lazy, SPTI_ROW_CANDIDATE_RATIO, ray);
+    words[FALLBACKS].whole = (uint32_t)row(lazy, SPTI_ROW_FALLBACKS, ray);
 }
 
-static record_word flags_of(const spti_record *record) {
-    const int steep = record->steep || spti_is_steep(record->steepest);
-    const record_word word = {.whole = (steep ? SPT_FLAG_STEEP : 0u) |
-                                       (record->inside ? SPT_FLAG_INSIDE : 0u)};
-    return word;
-}
-
-static record_word component_of(const spti_record *record) {
-    const record_word word = {.signed_whole = record->outcome == SPT_HIT ? record->component : -1};
-    return word;
-}
-
-static record_word candidate_t_of(const spti_record *record) {
-    const int there = record->candidate_ratio < INFINITY;
-    const record_word word = {.real = there ? record->candidate_t : INFINITY};
-    return word;
-}
-
-static record_word candidate_ratio_of(const spti_record *record) {
-    const record_word word = {.real = record->candidate_ratio};
-    return word;
-}
-
-static record_word fallbacks_of(const spti_record *record) {
-    const record_word word = {.whole = (uint32_t)record->fallbacks};
-    return word;
-}
-
-SPTI_INLINE void write_column(const spti_record *records, size_t count, const spt_sink *sink,
-                              size_t first, const size_t *places, word_fn *word_of) {
-    char *const base = sink->first;
-    const ptrdiff_t stride = sink->stride;
-    if (base == NULL) return;
-    for (size_t i = 0; i < count; ++i) {
-        if (!records[i].active) continue;
-        const record_word word = word_of(&records[i]);
-        const size_t place = places != NULL ? places[i] : first + i;
-        memcpy(base + (ptrdiff_t)place * stride, &word, sizeof word);
+static void write_words(const wanted *all, size_t place, const record_word words[RESULTS]) {
+    for (int k = 0; k < all->count; ++k) {
+        memcpy(all->base[k] + (ptrdiff_t)place * all->stride[k], &words[all->result[k]], 4);
     }
 }
 
-void spti_records_write(const spti_record *records, size_t count, const spt_hits *hits,
-                        size_t first, const size_t *places) {
-    write_column(records, count, &hits->t, first, places, t_of);
-    write_column(records, count, &hits->residual, first, places, residual_of);
-    write_column(records, count, &hits->outcome, first, places, outcome_of);
-    write_column(records, count, &hits->evaluations, first, places, evaluations_of);
-    write_column(records, count, &hits->flags, first, places, flags_of);
-    write_column(records, count, &hits->component, first, places, component_of);
-    write_column(records, count, &hits->candidate_t, first, places, candidate_t_of);
-    write_column(records, count, &hits->candidate_ratio, first, places, candidate_ratio_of);
-    write_column(records, count, &hits->fallbacks, first, places, fallbacks_of);
+/* Of a ray that asked nothing. */
+static void words_of_miss(record_word words[RESULTS]) {
+    words[T].real = words[RESIDUAL].real = INFINITY;
+    words[CANDIDATE_T].real = words[CANDIDATE_RATIO].real = INFINITY;
+    words[OUTCOME].signed_whole = SPT_MISS;
+    words[COMPONENT].signed_whole = -1;
+    words[EVALUATIONS].whole = words[FLAGS].whole = words[FALLBACKS].whole = 0;
 }
 
-void spti_records_count(const spti_record *records, size_t count, spt_statistics *statistics) {
-    for (size_t i = 0; i < count; ++i) {
-        const spti_record *const record = &records[i];
-        if (!record->active) continue;
-        statistics->rays += 1;
-        statistics->outcomes[record->outcome] += 1;
-        statistics->fallbacks += (uint64_t)record->fallbacks;
-        if (record->steepest > statistics->largest_slope) {
-            statistics->largest_slope = record->steepest;
+/* One result of all active rays; which one is a constant. */
+SPTI_INLINE void write_result(const spti_union *lazy, int result, char *base, ptrdiff_t stride,
+                              size_t first, const size_t *places) {
+    for (size_t i = 0; i < lazy->count; ++i) {
+        record_word words[RESULTS];
+        const size_t place = places != NULL ? places[i] : first + i;
+        if (!lazy->records[i].active) continue;
+        words_of(lazy, i, words);
+        memcpy(base + (ptrdiff_t)place * stride, &words[result], 4);
+    }
+}
+
+void spti_union_write(const spti_union *lazy, const spt_hits *hits, size_t first,
+                      const size_t *places) {
+    const wanted all = wanted_of(hits);
+    for (int k = 0; k < all.count; ++k) {
+        char *const base = all.base[k];
+        const ptrdiff_t stride = all.stride[k];
+        switch (all.result[k]) {
+#define CASE(result) \
+    case result: \
+        write_result(lazy, result, base, stride, first, places); \
+        break;
+            CASE(T)
+            CASE(RESIDUAL)
+            CASE(OUTCOME)
+            CASE(EVALUATIONS)
+            CASE(FLAGS)
+            CASE(COMPONENT)
+            CASE(CANDIDATE_T)
+            CASE(CANDIDATE_RATIO)
+            CASE(FALLBACKS)
+#undef CASE
+        default:
+            break;
         }
+    }
+}
+
+void spti_union_hit(const spti_union *lazy, size_t ray, spt_hit *hit) {
+    const spt_hits sinks = spt_hits_of(hit);
+    const wanted all = wanted_of(&sinks);
+    record_word words[RESULTS];
+    if (lazy->records[ray].active) {
+        words_of(lazy, ray, words);
+    } else {
+        words_of_miss(words);
+    }
+    write_words(&all, 0, words);
+}
+
+void spti_write_misses(size_t count, const int32_t *active, const size_t *places,
+                       const spt_hits *hits) {
+    const wanted all = wanted_of(hits);
+    record_word words[RESULTS];
+    words_of_miss(words);
+    for (int k = 0; k < all.count; ++k) {
+        const record_word word = words[all.result[k]];
+        char *const base = all.base[k];
+        const ptrdiff_t stride = all.stride[k];
+        for (size_t i = 0; i < count; ++i) {
+            if (active != NULL && active[i] == 0) continue;
+            memcpy(base + (ptrdiff_t)places[i] * stride, &word, sizeof word);
+        }
+    }
+}
+
+void spti_union_count(const spti_union *lazy, spt_statistics *statistics) {
+    for (size_t i = 0; i < lazy->count; ++i) {
+        const float steepest = row(lazy, SPTI_ROW_STEEPEST, i);
+        if (!lazy->records[i].active) continue;
+        statistics->rays += 1;
+        statistics->outcomes[lazy->records[i].outcome] += 1;
+        statistics->fallbacks += (uint64_t)row(lazy, SPTI_ROW_FALLBACKS, i);
+        if (steepest > statistics->largest_slope) statistics->largest_slope = steepest;
     }
 }

@@ -116,18 +116,23 @@ void spti_union_scene(spti_union *lazy, spti_call *calls, uint32_t *list, const 
     lazy->zone_count = scene->zone_count;
     lazy->budget = settings->budget;
     lazy->isa = spti_isa_choose(settings->max_lanes);
-    lazy->allowance = UINT64_MAX;
+    lazy->epsilon = settings->epsilon;
+    lazy->allowance = INT64_MAX;
 }
 
-static void trace_pools(spti_union *lazy, size_t count, const spt_hits *hits,
+static void trace_pools(spti_union *lazy, size_t count, const spt_rays *rays, const spt_hits *hits,
                         spt_statistics *statistics) {
     for (size_t first = 0; first < count; first += POOL) {
-        lazy->first = first;
-        lazy->count = count - first < POOL ? count - first : POOL;
-        spti_union_begin(lazy, NULL);
+        const size_t size = count - first < POOL ? count - first : POOL;
+        spti_union_clear(lazy);
+        for (size_t window = 0; window < size; window += SPT_BATCH) {
+            const size_t left = size - window;
+            spti_union_add(lazy, rays, first + window, left < SPT_BATCH ? left : SPT_BATCH);
+        }
+        spti_union_enter(lazy, NULL);
         spti_union_run(lazy);
-        spti_records_write(lazy->records, lazy->count, hits, first, NULL);
-        if (statistics != NULL) spti_records_count(lazy->records, lazy->count, statistics);
+        spti_union_write(lazy, hits, first, NULL);
+        if (statistics != NULL) spti_union_count(lazy, statistics);
     }
 }
 
@@ -150,8 +155,7 @@ spt_status spt_scene_trace(const spt_scene *scene, const spt_settings *settings,
         spti_scene_call(&room.calls[i], room.lazy, &copy, i, &chosen, hits, statistics);
         room.list[i] = (uint32_t)i;
     }
-    room.lazy->rays = rays;
     if (statistics != NULL) statistics->lanes = (uint32_t)spti_isa_lanes(room.lazy->isa);
-    trace_pools(room.lazy, count, hits, statistics);
+    trace_pools(room.lazy, count, rays, hits, statistics);
     return SPT_OK;
 }

@@ -24,10 +24,17 @@ void spti_union_scene(spti_union *lazy, spti_call *calls, uint32_t *list, const 
                       const spt_settings *settings);
 
 /* Writes the results of active rays at their end: those of ray i to places[i], or first + i. */
-void spti_records_write(const spti_record *records, size_t count, const spt_hits *hits,
-                        size_t first, const size_t *places);
+void spti_union_write(const spti_union *lazy, const spt_hits *hits, size_t first,
+                      const size_t *places);
 
-/* Counts them; evaluations were counted as they were made. */
-void spti_records_count(const spti_record *records, size_t count, spt_statistics *statistics);
+/* Those of one ray; a miss where it is not active. */
+void spti_union_hit(const spti_union *lazy, size_t ray, spt_hit *hit);
+
+/* Misses of rays that no component can meet; active may be NULL. */
+void spti_write_misses(size_t count, const int32_t *active, const size_t *places,
+                       const spt_hits *hits);
+
+/* Counts the active rays; evaluations were counted as they were made. */
+void spti_union_count(const spti_union *lazy, spt_statistics *statistics);
 
 #endif

@@ -9,31 +9,55 @@
 
 #include "../trace/driver.h"
 
-/* What of a component's march along a ray is kept while another component is nearer. */
+/* What is known of a ray, in rows of floats; t in the ray's own unit (chunk.h). */
 enum {
+    SPTI_ROW_ORIGIN, /* three, */
+    SPTI_ROW_DIRECTION = SPTI_ROW_ORIGIN + 3,
+    SPTI_ROW_LENGTH = SPTI_ROW_DIRECTION + 3, /* of the direction */
+    SPTI_ROW_REACH,                           /* largest magnitude in the origin */
+    SPTI_ROW_UNIT,                            /* t of the caller = unit * t, */
+    SPTI_ROW_POWER,                           /* and back */
+    SPTI_ROW_T_MIN,
+    SPTI_ROW_T_MAX,
+    SPTI_ROW_EPSILON,
+    SPTI_ROW_PATH,
+    SPTI_ROW_NEAREST, /* t of the nearest event so far; +infinity: none */
+    SPTI_ROW_VALUE,   /* f there */
+    SPTI_ROW_SPENT,   /* evaluations, as bits */
+    SPTI_ROW_STEEPEST,
+    SPTI_ROW_FALLBACKS,
+    SPTI_ROW_CANDIDATE_T,
+    SPTI_ROW_CANDIDATE_RATIO,
+    SPTI_ROW_LEAST,  /* of the components' keys, */
+    SPTI_ROW_SECOND, /* the second, */
+    SPTI_ROW_WHICH,  /* and the place in the list of the least */
+    SPTI_ROWS
+};
+
+/* What is known of a component on a ray: up to where the ray is free of it, where it is to be
+ * traced to, and the march while another component is nearer. */
+enum {
+    SPTI_STATE_KEY,
+    SPTI_STATE_EXIT,
     SPTI_STATE_T,
     SPTI_STATE_VALUE,
     SPTI_STATE_PROBE,
     SPTI_STATE_MEMORY,
     SPTI_STATE_PENDING_T,
     SPTI_STATE_PENDING_VALUE,
-    SPTI_STATE_T_MAX, /* the caller's, or where an empty zone begins */
+    SPTI_STATE_SCALE,
+    SPTI_STATE_CLEAR, /* where the next empty zone begins; only with zones */
     SPTI_STATES
 };
 
-/* How far a component's march along a ray is. */
-enum { SPTI_FRESH, SPTI_BEGUN, SPTI_BEGUN_INSIDE };
+/* Tasks by how their marches begin. */
+enum { SPTI_TASKS_BEGUN, SPTI_TASKS_FRESH, SPTI_TASKS_CUT };
 
-/* How a ray stands; results from its end on. */
+/* What else is known of a ray. */
 typedef struct spti_record {
-    float t, value;    /* of the nearest event so far, t in the caller's units; +infinity: none */
-    int32_t component; /* whose */
-    uint32_t evaluations;
-    float steepest, fallbacks;          /* as in a chunk */
-    float candidate_t, candidate_ratio; /* t in the caller's units */
+    int32_t component; /* of the nearest event */
     unsigned char outcome;
     unsigned char inside, steep, active;
-    float unit; /* t of the caller = unit * t of the marches */
 } spti_record;
 
 typedef struct spti_union {
@@ -42,26 +66,23 @@ typedef struct spti_union {
     size_t listed; /* components that take part: list[0 .. listed - 1], ascending */
     const spt_zone *zones;
     size_t zone_count;
-    const spt_rays *rays; /* first .. first + count - 1, count <= pool */
-    size_t first, count, pool;
-    uint32_t budget;
+    size_t count, pool; /* rays, and most of them */
+    uint32_t budget, most_spent;
     spti_isa isa;
-    uint64_t allowance; /* evaluations until it is left; the calls take from it */
+    float epsilon;     /* as in the settings */
+    int64_t allowance; /* evaluations until it is left, below 0 when overdrawn; the calls take
+                         * from it */
 
-    /* By component of the list and ray: up to where the ray is free of it, in the caller's units;
-     * how far its march is; and the state of that, SPTI_STATES rows a component. */
-    float *keys;
-    unsigned char *begun;
-    float *states;
-
-    /* By ray. */
-    float *least, *second, *which; /* of the keys, and the place in the list of the least */
+    float *rows;   /* SPTI_ROWS of pool + SPTI_GROUP */
+    float *states; /* by component of the list, SPTI_STATES of pool + SPTI_GROUP */
+    /* Masks of SPTI_GROUP rays: */
+    uint16_t *begun;     /* by component of the list and group: its march has begun */
+    uint16_t *cut;       /* and: it begins where an empty zone ends, */
+    uint16_t *inside;    /* which the ray came to inside of the body */
+    uint16_t *tasks;     /* and: it is the nearest one */
+    uint16_t *alive;     /* by group: not at their end */
+    unsigned char *busy; /* by component of the list: whether it has tasks */
     spti_record *records;
-    uint16_t *alive; /* the rays not at their end */
-    size_t alive_count;
-    uint16_t *tasks;  /* those, sorted by the component that is nearest */
-    uint32_t *counts; /* by component of the list */
-    uint16_t *groups; /* of SPTI_GROUP rays, with living ones among them */
     spti_chunk chunk;
     size_t running; /* place in the list of the component at work */
 } spti_union;
@@ -71,9 +92,14 @@ typedef struct spti_union {
 size_t spti_union_size(size_t components, size_t pool);
 void spti_union_place(spti_union *lazy, void *memory, size_t components, size_t pool);
 
-/* Rays that are fresh. starts: by component of the list and ray (rows of pool), the least t at
- * which the component can be, +infinity: nowhere; or NULL. */
-void spti_union_begin(spti_union *lazy, const float *starts);
+/* Rays come in windows of SPT_BATCH, the last of which may be smaller: rays first .. first + size -
+ * 1 of the caller's. */
+void spti_union_clear(spti_union *lazy);
+void spti_union_add(spti_union *lazy, const spt_rays *rays, size_t first, size_t size);
+
+/* Turns to the components of the list. starts: by component of the list and ray (rows of pool), the
+ * least t at which the component can be, in the caller's unit, +infinity: nowhere; or NULL. */
+void spti_union_enter(spti_union *lazy, const float *starts);
 
 /* Traces until all rays are at their end, and returns 1, or until the allowance is used up, and
  * returns 0. */
@@ -82,30 +108,46 @@ int spti_union_run(spti_union *lazy);
 /* The leave of a component's call, whose owner is the union. */
 spti_leave_fn spti_union_leave;
 
-/* Empty zones. From t on of a ray in the caller's units: the first t that no zone of the component
- * covers, and where from there the next zone begins (+infinity: none). */
+/* Empty zones. From t on of a ray: the first t that no zone of the component covers, and where from
+ * there the next zone begins (+infinity: none). */
 typedef struct spti_clearing {
     float begin, end;
 } spti_clearing;
 spti_clearing spti_zone_clearing(const spt_zone *zones, size_t count, int32_t component,
-                                 const spt_rays *rays, size_t ray, float t);
+                                 const double origin[3], const double direction[3], float t);
 
 /* The kernels, by instruction set. */
 typedef struct spti_union_kernels {
-    /* Brings loaded rays into their own units and finds the bad ones (fates). */
-    void (*units)(spti_chunk *chunk, size_t count);
-    /* By ray: where it enters a bound (or NULL) at or after starts[i], in the caller's units;
-     * +infinity where nowhere. In place. */
-    void (*entries)(const spti_chunk *chunk, const spt_bound *bound, size_t count, float *starts);
-    /* The least and the second of the keys of groups of rays. */
-    void (*least)(const spti_union *lazy, size_t group_count);
+    /* Takes a window of loaded rays over into the rows, and finds the bad ones (alive). */
+    void (*begin)(spti_union *lazy, size_t window, size_t count);
+    /* Where the rays enter and leave the bound of a component, if it has one; starts as in
+     * spti_union_begin(), of this component. */
+    void (*enter)(spti_union *lazy, size_t place, const float *starts);
+    /* Finds the nearest component of every ray, ends those that are decided, and makes tasks of the
+     * others. Returns whether any are left. */
+    int (*plan)(spti_union *lazy);
+    /* Brings tasks of one kind of the component at work into the chunk, from *group on, at most
+     * SPT_BATCH. Returns how many, and the next group. */
+    size_t (*take)(spti_union *lazy, int kind, size_t *group);
     spti_stop_fn *stop;
 } spti_union_kernels;
 extern const spti_union_kernels *const spti_union_kernels_of[];
 
-/* A row of keys. */
-static inline float *spti_union_keys(const spti_union *lazy, size_t place) {
-    return lazy->keys + place * lazy->pool;
+static inline float *spti_union_row(const spti_union *lazy, int what) {
+    return lazy->rows + (size_t)what * (lazy->pool + SPTI_GROUP);
+}
+
+static inline float *spti_union_state(const spti_union *lazy, size_t place, int what) {
+    return lazy->states + (place * SPTI_STATES + (size_t)what) * (lazy->pool + SPTI_GROUP);
+}
+
+static inline size_t spti_union_groups(const spti_union *lazy) {
+    return (lazy->count + SPTI_GROUP - 1) / SPTI_GROUP;
+}
+
+/* A component's masks. */
+static inline uint16_t *spti_union_masks(const spti_union *lazy, uint16_t *masks, size_t place) {
+    return masks + place * (lazy->pool / SPTI_GROUP);
 }
 
 #endif

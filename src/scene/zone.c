@@ -7,12 +7,6 @@
 
 #include "union.h"
 
-static float read_float(const spt_column *column, size_t ray) {
-    float value;
-    memcpy(&value, (const char *)column->first + (ptrdiff_t)ray * column->stride, sizeof value);
-    return value;
-}
-
 /* Where a ray is inside a zone, rounded to the precision of t: the very numbers that t is compared
  * with, since an exit that rounds below t would be found again for ever. Empty: begin > end. In
  * double, whose range squares any float. */
@@ -43,13 +37,8 @@ static int concerns(const spt_zone *zone, int32_t component) {
 }
 
 spti_clearing spti_zone_clearing(const spt_zone *zones, size_t count, int32_t component,
-                                 const spt_rays *rays, size_t ray, float t) {
+                                 const double origin[3], const double direction[3], float t) {
     spti_clearing clear = {t, INFINITY};
-    double origin[3], direction[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        origin[axis] = (double)read_float(&rays->origin[axis], ray);
-        direction[axis] = (double)read_float(&rays->direction[axis], ray);
-    }
     /* Behind each zone another one may cover the exit, so at most as many times as there are. */
     int covers = 1;
     for (size_t round = 0; covers && round < count; ++round) {

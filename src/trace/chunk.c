@@ -80,9 +80,7 @@ void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
         }
         for (size_t i = n; i < whole; ++i) distance[i] = distance[0];
     }
-    if (call->allowance != NULL) {
-        *call->allowance -= n < *call->allowance ? n : *call->allowance;
-    }
+    if (call->allowance != NULL) *call->allowance -= (int64_t)n;
     if (call->statistics != NULL) {
         call->statistics->passes += 1;
         call->statistics->evaluations += n;
@@ -220,7 +218,7 @@ static uint32_t most_spent_of(const spti_call *call, const spti_chunk *chunk, si
 
 /* Each pass is an evaluation of each ray. */
 void spti_run_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size_t first, int any,
-                      int first_pass) {
+                    int first_pass) {
     const uint32_t flags = call->settings.flags, budget = call->settings.budget;
     size_t brackets = 0;
     if (any) count = empty_finished(call, chunk, count, first, 0, &brackets);
@@ -236,7 +234,7 @@ void spti_run_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size
         if (fresh && flags != 0) any = apply_start_options(call, chunk, count);
         if (call->stop != NULL) any = call->stop(chunk, count);
         if (budget - age - 1 <= most_spent) any |= expire(call, chunk, count, age + 1);
-        if (call->allowance != NULL && *call->allowance == 0) {
+        if (call->allowance != NULL && *call->allowance <= 0) {
             stop_all(chunk, count);
             any = 1;
         }

@@ -31,9 +31,11 @@ typedef struct spti_call {
     unsigned char arrays[SPTI_ARRAYS]; /* those that follow the rays in this call */
     size_t array_count;
     spti_leave_fn *leave;
-    spti_stop_fn *stop;  /* NULL: rays are traced to their end */
-    uint64_t *allowance; /* evaluations until all rays are set aside, with stop; or NULL */
-    void *owner;         /* of leave */
+    const size_t *places; /* where the results of a ray go; NULL: to its own number */
+    int32_t component;    /* what a hit is said to have hit */
+    spti_stop_fn *stop;   /* NULL: rays are traced to their end */
+    int64_t *allowance;   /* evaluations until all rays are set aside, with stop; or NULL */
+    void *owner;          /* of leave */
 } spti_call;
 
 /* Beside the public outcomes: the ray is not at its end. */
@@ -47,7 +49,7 @@ typedef struct spti_leavers {
     uint16_t slots[SPT_BATCH];
     unsigned char outcomes[SPT_BATCH];
     unsigned char indices[SPT_BATCH]; /* where they were loaded, and */
-    uint16_t rays[SPT_BATCH];         /* which rays of the call they are: set when written */
+    size_t places[SPT_BATCH];         /* where their results go: set when written */
 } spti_leavers;
 
 /* Takes in a caller's field and the bound it points to; 0 where either breaks its rules. */
@@ -78,14 +80,15 @@ void spti_load_chunk(const spt_rays *rays, spti_chunk *chunk, size_t count, size
 /* and marches them, after they were prepared, until all have left. any: whether some are finished
  * already. first_pass: 1 for fresh rays, 0 for rays whose points to evaluate are in place. */
 void spti_run_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size_t first, int any,
-                      int first_pass);
+                    int first_pass);
 
 /* Asks the callback for n points (rounded up to whole groups, which must be filled) into
  * chunk->distance; what it does not write is NaN. */
 void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n);
 
-/* Sets the indices and rays of leavers. */
-void spti_name_leavers(const spti_chunk *chunk, spti_leavers *leavers);
+/* Sets the indices and places of leavers. */
+void spti_place_leavers(const spti_call *call, const spti_chunk *chunk, spti_leavers *leavers,
+                        size_t first);
 
 /* The leave of spt_trace(): writes the results of rays. */
 spti_leave_fn spti_write_hits;

@@ -81,19 +81,31 @@ SPTI_INLINE spt_wide prepare_units(prepare_rays *rays) {
     return unit;
 }
 
+/* The least tolerance, in t. */
+SPTI_INLINE spt_wide prepare_epsilon(float epsilon, spt_wide length) {
+    const spt_wide least = spt_splat(0x1p-149f); /* f = 0 is within any epsilon */
+    return spt_max(spt_div(spt_splat(epsilon), length), least);
+}
+
+/* What f is multiplied with to give the radius in t. */
+SPTI_INLINE spt_wide prepare_scale(const spti_march *march, spt_wide length) {
+    return spt_div(spt_splat(march->inverse_lipschitz), length);
+}
+
+/* The rounding floor at t = 0, in t. */
+SPTI_INLINE spt_wide prepare_floor(const spti_march *march, spt_wide reach, spt_wide length) {
+    const spt_wide of_origin = spt_mul(spt_splat(SPTI_FLOOR), reach);
+    return spt_div(spt_add(of_origin, spt_splat(SPTI_FLOOR * march->size)), length);
+}
+
 SPTI_INLINE void prepare_store(spti_chunk *chunk, const spti_march *march, size_t at,
                                const prepare_rays *rays) {
     const interval_ray *const ray = &rays->ray;
-    const spt_wide least = spt_splat(0x1p-149f); /* f = 0 is within any epsilon */
-    const spt_wide reach = spt_mul(spt_splat(SPTI_FLOOR), ray->reach);
-    const spt_wide floor_at_0 = spt_add(reach, spt_splat(SPTI_FLOOR * march->size));
-    const spt_wide epsilon = spt_div(spt_splat(march->epsilon), ray->length);
-    const spt_wide scale = spt_div(spt_splat(march->inverse_lipschitz), ray->length);
-    spt_store(&chunk->array[SPTI_SCALE][at], scale);
+    spt_store(&chunk->array[SPTI_SCALE][at], prepare_scale(march, ray->length));
     spt_store(&chunk->array[SPTI_T_MAX][at], rays->t_max);
-    spt_store(&chunk->array[SPTI_EPSILON][at], spt_max(epsilon, least));
+    spt_store(&chunk->array[SPTI_EPSILON][at], prepare_epsilon(march->epsilon, ray->length));
     spt_store(&chunk->array[SPTI_PATH][at], spt_div(rays->path, ray->length));
-    spt_store(&chunk->array[SPTI_FLOOR_AT_0][at], spt_div(floor_at_0, ray->length));
+    spt_store(&chunk->array[SPTI_FLOOR_AT_0][at], prepare_floor(march, ray->reach, ray->length));
     spt_store(&chunk->array[SPTI_T][at], rays->t_min);
     spt_store(&chunk->array[SPTI_PROBE][at], rays->t_min);
     spt_store(&chunk->array[SPTI_VALUE][at], spt_splat(INFINITY)); /* where nothing is evaluated */
