@@ -80,6 +80,10 @@ SPT_SHAPE spt_real boxes_distance(const placed_box *boxes, int number, spt_point
     return spt_root(least.squared) + least.depth;
 }
 
+SPT_SHAPE spt_real placed_box_distance(const placed_box *box, spt_point p) {
+    return boxes_distance(box, 1, p);
+}
+
 /* The same for up to SCENE_BLOCK points, the loop over the points innermost. */
 SPT_SHAPE void boxes_block(const placed_box *boxes, int number, int count,
                            const spt_real *restrict x, const spt_real *restrict y,
@@ -127,4 +131,11 @@ SCENE_BLOCKS(village_boxes, .description = "81 towers and ground, 82 boxes", .li
              .eye = {4.2, 5.2, 8.6}, .target = {0, 0.2, 0.4}, .field_of_view = 50, .t_max = 20)
 SCENE_BLOCKS(slabs, .description = "13 thin slabs, seen into", .lipschitz = 1,
              .eye = {2.1, 0.6, 3.6}, .target = {0, 0, 0}, .field_of_view = 50, .t_max = 20)
+#endif
+
+#ifdef PART
+PART_TABLE(village_boxes, box, placed_box_distance, placed_box, town_boxes, TOWN_BOXES,
+           .flags = SPT_FIELD_CONVEX, .place = placed_box_extent)
+PART_TABLE(slabs, slab, placed_box_distance, placed_box, slab_boxes, SLABS,
+           .flags = SPT_FIELD_CONVEX, .place = placed_box_extent)
 #endif

@@ -44,3 +44,9 @@ SCENE(bumpy_ball, .description = "ball with bumps, steeper than a distance", .li
 SCENE(blended, .description = "bodies that grow smoothly out of a floor", .lipschitz = 1,
       .eye = {0.8, 3.1, 6.6}, .target = {0.2, 0.8, 0}, .field_of_view = 50, .t_max = 40)
 #endif
+
+#ifdef PART
+/* The box of ball and block, wider by what a blend adds at most, a quarter of 0.5. */
+PART_WHOLE(smooth_union, .extent = BOX(-1.125, -0.875, -0.675, 1.325, 1.225, 0.875))
+PART_WHOLE(bumpy_ball, .extent = BALL(0, 0, 0, 1.06))
+#endif

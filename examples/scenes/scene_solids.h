@@ -43,3 +43,10 @@ SCENE(thin_torus, .description = "ring 20 times as wide as thick", .lipschitz = 
 SCENE(hollow_box, .description = "open box with thin walls", .lipschitz = 1, .eye = {1.6, 2.6, 3.1},
       .target = {0, 0, 0}, .field_of_view = 50, .t_max = 20)
 #endif
+
+#ifdef PART
+PART_WHOLE(sphere, .extent = BALL(0, 0, 0, 1))
+PART_WHOLE(box, .extent = BOX(-1, -0.7, -0.85, 1, 0.7, 0.85))
+PART_WHOLE(thin_torus, .extent = BOX(-1.05, -0.05, -1.05, 1.05, 0.05, 1.05))
+PART_WHOLE(hollow_box, .extent = BOX(-1, -0.7, -0.85, 1, 0.7, 0.85))
+#endif

@@ -2,7 +2,7 @@
  *
  * A village of 40 houses, each turned its own way and made of two bodies of planes, on a square of
  * ground: 41 objects, hard union. All distances are maxima of planes: lower bounds without a root.
- * The objects one by one are in village.h. */
+ * The objects one by one are in parts.h. */
 #ifndef EXAMPLES_SCENE_VILLAGE_H
 #define EXAMPLES_SCENE_VILLAGE_H
 
@@ -63,22 +63,41 @@ static const village_house village_houses[VILLAGE_HOUSES] = {
 /* clang-format on */
 #undef HOUSE
 
-SPT_SHAPE spt_real village_house_distance(const village_house *house, spt_point p) {
+/* A point as a house sees it: how far from its middle across and along the ridge, and its height.
+ * Both bodies are convex, being maxima of planes and of magnitudes of planes. */
+SPT_SHAPE spt_point village_seen_from(const village_house *house, spt_point p) {
     const spt_real x = p.x - house->x, z = p.z - house->z;
-    const spt_real across = spt_magnitude(house->cosine * x + house->sine * z);
-    const spt_real along = spt_magnitude(house->cosine * z - house->sine * x);
-    const spt_real over_wall = along - house->half_depth;
-    const spt_real body =
-        spt_intersection(spt_intersection(across - house->half_width, over_wall),
-                         spt_magnitude(p.y - house->half_height) - house->half_height);
-    const spt_real slope =
-        real(VILLAGE_ROOF_ACROSS) * across + real(VILLAGE_ROOF_UP) * (p.y - house->ridge);
-    const spt_real roof = spt_intersection(spt_intersection(slope, over_wall - real(VILLAGE_EAVES)),
-                                           (house->half_height + house->half_height) - p.y);
-    return spt_union(body, roof);
+    return spt_point_of(spt_magnitude(house->cosine * x + house->sine * z), p.y,
+                        spt_magnitude(house->cosine * z - house->sine * x));
 }
 
-SPT_SHAPE spt_real village_ground_distance(spt_point p) {
+SPT_SHAPE spt_real village_walls_of(const village_house *house, spt_point q) {
+    return spt_intersection(spt_intersection(q.x - house->half_width, q.z - house->half_depth),
+                            spt_magnitude(q.y - house->half_height) - house->half_height);
+}
+
+SPT_SHAPE spt_real village_roof_of(const village_house *house, spt_point q) {
+    const spt_real over_wall = q.z - house->half_depth;
+    const spt_real slope =
+        real(VILLAGE_ROOF_ACROSS) * q.x + real(VILLAGE_ROOF_UP) * (q.y - house->ridge);
+    return spt_intersection(spt_intersection(slope, over_wall - real(VILLAGE_EAVES)),
+                            (house->half_height + house->half_height) - q.y);
+}
+
+SPT_SHAPE spt_real village_house_distance(const village_house *house, spt_point p) {
+    const spt_point q = village_seen_from(house, p);
+    return spt_union(village_walls_of(house, q), village_roof_of(house, q));
+}
+
+SPT_SHAPE spt_real village_walls_distance(const village_house *house, spt_point p) {
+    return village_walls_of(house, village_seen_from(house, p));
+}
+
+SPT_SHAPE spt_real village_roof_distance(const village_house *house, spt_point p) {
+    return village_roof_of(house, village_seen_from(house, p));
+}
+
+SPT_SHAPE spt_real village_ground(spt_point p) {
     const spt_real x = spt_magnitude(p.x) - real(VILLAGE_GROUND_HALF);
     const spt_real y = spt_magnitude(p.y + real(VILLAGE_GROUND_DEPTH)) - real(VILLAGE_GROUND_DEPTH);
     const spt_real z = spt_magnitude(p.z) - real(VILLAGE_GROUND_HALF);
@@ -86,7 +105,7 @@ SPT_SHAPE spt_real village_ground_distance(spt_point p) {
 }
 
 SPT_SHAPE spt_real scene_village_distance(spt_point p) {
-    spt_real least = village_ground_distance(p);
+    spt_real least = village_ground(p);
     for (int i = 0; i < VILLAGE_HOUSES; ++i) {
         least = spt_union(least, village_house_distance(&village_houses[i], p));
     }
@@ -99,7 +118,7 @@ SPT_SHAPE void scene_village_block(int count, const spt_real *restrict x,
                                    spt_real *restrict distance) {
     spt_real least[SCENE_BLOCK];
     for (int k = 0; k < count; ++k) {
-        least[k] = village_ground_distance(spt_point_of(x[k], y[k], z[k]));
+        least[k] = village_ground(spt_point_of(x[k], y[k], z[k]));
     }
     for (int i = 0; i < VILLAGE_HOUSES; ++i) {
         const village_house house = village_houses[i];
@@ -118,4 +137,14 @@ SPT_SHAPE void scene_village_block(int count, const spt_real *restrict x,
 SCENE_BLOCKS(village, .description = "40 houses and ground, 41 objects", .lipschitz = 1,
              .bound = BOX(-12.5f, -0.5f, -12.5f, 12.5f, 2.25f, 12.5f), .eye = {6.5, 10.5, 20},
              .target = {0.4, 0, 1}, .field_of_view = 55, .t_max = 60)
+#endif
+
+#ifdef PART
+PART(village, ground, .flags = SPT_FIELD_CONVEX, .extent = BOX(-12.5, -0.5, -12.5, 12.5, 0, 12.5))
+PART_TABLE(village, house, village_house_distance, village_house, village_houses, VILLAGE_HOUSES,
+           .only = SCENE_OBJECTS, .place = village_house_extent)
+PART_TABLE(village, walls, village_walls_distance, village_house, village_houses, VILLAGE_HOUSES,
+           .only = SCENE_PRIMITIVES, .flags = SPT_FIELD_CONVEX, .place = village_walls_extent)
+PART_TABLE(village, roof, village_roof_distance, village_house, village_houses, VILLAGE_HOUSES,
+           .only = SCENE_PRIMITIVES, .flags = SPT_FIELD_CONVEX, .place = village_roof_extent)
 #endif

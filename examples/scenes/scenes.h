@@ -49,4 +49,8 @@ void scene_rays(const scene *scene, int width, int height, spt_ray *rays, float 
 void scene_rays_tiled(const scene *scene, int width, int height, spt_ray *rays, size_t *pixel,
                       float *pixel_radius);
 
+/* The same camera for a picture of width x height as a frame takes it (spt_camera_pinhole()): its
+ * rays differ from those of scene_rays() by their rounding. */
+spt_camera scene_camera(const scene *scene, uint32_t width, uint32_t height);
+
 #endif

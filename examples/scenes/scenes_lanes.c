@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * The batch callbacks of all scenes for one instruction set. Compiled once for each, with its flags
- * and SCENE_LANES 1, 4, 8 or 16; that for 1 also has the callbacks for one point. */
+ * The batch callbacks of all scenes and of their components for one instruction set. Compiled once
+ * for each, with its flags and SCENE_LANES 1, 4, 8 or 16; that for 1 also has the callbacks for one
+ * point. */
 #ifndef SCENE_LANES
 #define SCENE_LANES 1
 #endif
@@ -13,15 +14,17 @@
 #define BATCH(name) PASTE(name, SCENE_LANES)
 
 #if SCENE_LANES == 1
-#define POINT_CALLBACK(name) \
+#define POINT_OF(name, prepare, value) \
     spt_distance_fn scene_##name##_point; \
     float scene_##name##_point(void *user, float x, float y, float z) { \
-        (void)user; \
-        return scene_##name##_distance(spt_point_of(x, y, z)); \
+        prepare; \
+        return value; \
     }
 #else
-#define POINT_CALLBACK(name)
+#define POINT_OF(name, prepare, value)
 #endif
+#define POINT_CALLBACK(name) \
+    POINT_OF(name, (void)user, scene_##name##_distance(spt_point_of(x, y, z)))
 
 #define BATCH_CALLBACK(name) \
     spt_distance_batch_fn BATCH(name); \
@@ -58,17 +61,26 @@
 
 #include "scenes_list.h"
 
-/* The objects of the village one by one, for village.c. */
-BATCH_CALLBACK(village_house) {
-    const village_house *const house = user;
-    for (size_t i = 0; i < n; ++i) {
-        distance[i] = village_house_distance(house, spt_point_of(x[i], y[i], z[i]));
-    }
-}
+/* The components that scenes are taken apart into. Those of a table share a source; user is the
+ * entry. */
+#define PART(shown, name, ...) \
+    BATCH_CALLBACK(shown##_##name) { \
+        (void)user; \
+        for (size_t i = 0; i < n; ++i) { \
+            distance[i] = shown##_##name(spt_point_of(x[i], y[i], z[i])); \
+        } \
+    } \
+    POINT_OF(shown##_##name, (void)user, shown##_##name(spt_point_of(x, y, z)))
 
-BATCH_CALLBACK(village_ground) {
-    (void)user;
-    for (size_t i = 0; i < n; ++i) {
-        distance[i] = village_ground_distance(spt_point_of(x[i], y[i], z[i]));
-    }
-}
+#define PART_TABLE(shown, name, distance_of, type, table, count, ...) \
+    BATCH_CALLBACK(shown##_##name) { \
+        const type entry = *(const type *)user; \
+        for (size_t i = 0; i < n; ++i) { \
+            distance[i] = distance_of(&entry, spt_point_of(x[i], y[i], z[i])); \
+        } \
+    } \
+    POINT_OF(shown##_##name, const type *const entry = user, \
+             distance_of(entry, spt_point_of(x, y, z)))
+
+#define PART_WHOLE(shown, ...)
+#include "parts_list.h"

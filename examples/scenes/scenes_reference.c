@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * All scenes in double precision, from the same source as the callbacks. */
+ * All scenes and their components in double precision, from the same source as the callbacks. */
 #define SPT_SHAPES_DOUBLE
+#include "parts_source.h"
 #include "scene_source.h"
 #include "scenes.h"
 
@@ -14,3 +15,19 @@
         } \
     }
 #include "scenes_list.h"
+
+#define PART_LOOP(part, value) \
+    part_reference_fn part##_reference; \
+    void part##_reference(size_t entry, size_t n, const double *x, const double *y, \
+                          const double *z, double *distance) { \
+        (void)entry; \
+        for (size_t i = 0; i < n; ++i) { \
+            const spt_point p = spt_point_of(x[i], y[i], z[i]); \
+            distance[i] = value; \
+        } \
+    }
+#define PART(shown, name, ...) PART_LOOP(part_##shown##_##name, shown##_##name(p))
+#define PART_TABLE(shown, name, distance_of, type, table, count, ...) \
+    PART_LOOP(part_##shown##_##name, distance_of(&(table)[entry], p))
+#define PART_WHOLE(shown, ...)
+#include "parts_list.h"

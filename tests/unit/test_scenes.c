@@ -7,87 +7,12 @@
 
 #include "scenes/scene_deformed.h"
 #include "scenes/scenes.h"
-#include "scenes/village.h"
 #include "test_scenes.h"
 
 #include <math.h>
 #include <string.h>
 
 static const double unit_roundoff = 5.9604644775390625e-8; /* 2^-24 */
-
-/* Points as a batch callback wants them: 64-byte aligned, in a union that is as large. */
-typedef struct points {
-    float room[4][SPT_BATCH + 16];
-} points;
-
-static float *column(points *set, int which) {
-    const size_t misplaced = (size_t)((uintptr_t)set->room[which] % 64) / sizeof(float);
-    return set->room[which] + (misplaced == 0 ? 0 : 16 - misplaced);
-}
-
-/* Where a scene is looked at: its bound, or a cube around what the camera looks at. */
-static void region_of(const scene *shown, double low[3], double high[3]) {
-    double reach = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        reach = fmax(reach, 0.7 * fabs(shown->eye[axis] - shown->target[axis]));
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = shown->target[axis] - reach;
-        high[axis] = shown->target[axis] + reach;
-    }
-    if (shown->bound != NULL && shown->bound->kind == SPT_BOUND_BOX) {
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = (double)shown->bound->low[axis];
-            high[axis] = (double)shown->bound->high[axis];
-        }
-    } else if (shown->bound != NULL) {
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = (double)(shown->bound->center[axis] - shown->bound->radius);
-            high[axis] = (double)(shown->bound->center[axis] + shown->bound->radius);
-        }
-    }
-}
-
-/* A random point of the region, its coordinates floats. */
-static void draw(const scene *shown, double point[3]) {
-    double low[3], high[3];
-    region_of(shown, low, high);
-    for (int axis = 0; axis < 3; ++axis) {
-        point[axis] = (double)(float)check_uniform(low[axis], high[axis]);
-    }
-}
-
-/* Points of the region, and at the front those where zeros and signs go wrong. */
-static void fill(const scene *shown, points *set) {
-    static const float special[8][3] = {
-        {0, 0, 0}, {-0.0f, -0.0f, -0.0f}, {1, 0, 0},           {0, -1, 0},
-        {0, 0, 1}, {0, 0.5f, -0.0f},      {1e-20f, 0, 1e-30f}, {1.25f, 0.75f, -0.5f}};
-    for (int i = 0; i < SPT_BATCH; ++i) {
-        double point[3];
-        draw(shown, point);
-        for (int axis = 0; axis < 3; ++axis) {
-            column(set, axis)[i] = i < 8 ? special[i][axis] : (float)point[axis];
-        }
-    }
-}
-
-static void evaluate(const spt_field *field, points *set, size_t first, size_t n) {
-    float *const distance = column(set, 3) + first;
-    for (size_t i = 0; i < n; ++i) distance[i] = NAN;
-    field->batch(field->user, n, column(set, 0) + first, column(set, 1) + first,
-                 column(set, 2) + first, distance);
-}
-
-static int differing(const float *a, const float *b, size_t n) {
-    int count = 0;
-    for (size_t i = 0; i < n; ++i) count += !check_same_bits(a[i], b[i]);
-    return count;
-}
-
-/* The next narrower width, 0 after 1. */
-static int narrower(int lanes) {
-    return lanes > 4 ? lanes / 2 : lanes == 4 ? 1 : 0;
-}
 
 static void scenes_same_bits_at_every_width(void) {
     static points set;
@@ -150,7 +75,7 @@ static void scenes_reference_within_rounding(void) {
         for (int axis = 0; axis < 3; ++axis) size += fabs(shown->eye[axis]);
         for (int i = 0; i < 10000; ++i) {
             double p[3];
-            draw(shown, p);
+            draw_in_region(shown, p);
             const double seen = (double)shown->point(NULL, (float)p[0], (float)p[1], (float)p[2]);
             const double error = fabs(seen - reference_at(shown, p));
             const double sum = fabs(p[0]) + fabs(p[1]) + fabs(p[2]) + size;
@@ -189,8 +114,8 @@ static void scenes_lipschitz_promise(void) {
         for (int i = 0; i < 20000; ++i) {
             double p[3], q[3];
             const double share = pow(10, check_uniform(-4, 0));
-            draw(shown, p);
-            draw(shown, q);
+            draw_in_region(shown, p);
+            draw_in_region(shown, q);
             for (int axis = 0; axis < 3; ++axis) q[axis] = p[axis] + share * (q[axis] - p[axis]);
             if (i % 2 == 1) step_downhill(shown, p, 1e-4, q);
             const double slope =
@@ -212,8 +137,8 @@ static void scenes_convex_where_they_say_so(void) {
         check_context("%s", shown->name);
         for (int i = 0; i < 4000; ++i) {
             double p[3], q[3], middle[3];
-            draw(shown, p);
-            draw(shown, q);
+            draw_in_region(shown, p);
+            draw_in_region(shown, q);
             for (int axis = 0; axis < 3; ++axis) middle[axis] = 0.5 * (p[axis] + q[axis]);
             /* 1e-9: what keeps the generalised distance from denormals bends it by 1e-10 */
             CHECK(reference_at(shown, middle) <=
@@ -221,17 +146,6 @@ static void scenes_convex_where_they_say_so(void) {
         }
     }
     CHECK(convex >= 5);
-}
-
-static int inside_bound(const spt_bound *bound, const double p[3]) {
-    const double center[3] = {(double)bound->center[0], (double)bound->center[1],
-                              (double)bound->center[2]};
-    if (bound->kind == SPT_BOUND_SPHERE) return apart(p, center) <= (double)bound->radius;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (!(p[axis] >= (double)bound->low[axis] && p[axis] <= (double)bound->high[axis]))
-            return 0;
-    }
-    return 1;
 }
 
 /* Nothing of a surface lies outside its bound: points in and around the region, half of them drawn
@@ -247,7 +161,7 @@ static void scenes_bound_contains_the_surface(void) {
         for (int i = 0; i < 8000; ++i) {
             const double growth = i % 2 == 0 ? 1.02 : 1.8;
             double p[3];
-            draw(shown, p);
+            draw_in_region(shown, p);
             for (int axis = 0; axis < 3; ++axis) {
                 const double middle = 0.5 * (low[axis] + high[axis]);
                 p[axis] = middle + growth * (p[axis] - middle);
@@ -270,68 +184,6 @@ static void scenes_deformed_constants(void) {
           (float)BENT_REACH);
 }
 
-static void scenes_village_is_the_union_of_its_objects(void) {
-    static points set;
-    const scene *const shown = scene_named("village");
-    float least[SPT_BATCH];
-    for (int lanes = spt_lanes(); lanes > 0; lanes = narrower(lanes)) {
-        check_context("%d lanes", lanes);
-        fill(shown, &set);
-        for (int i = 0; i < SPT_BATCH; ++i) least[i] = INFINITY;
-        for (int object = 0; object < VILLAGE_OBJECTS; ++object) {
-            spt_bound bound;
-            const spt_field field = village_object(object, lanes, &bound);
-            evaluate(&field, &set, 0, SPT_BATCH);
-            for (int i = 0; i < SPT_BATCH; ++i) {
-                const float distance = column(&set, 3)[i];
-                const double p[3] = {(double)column(&set, 0)[i], (double)column(&set, 1)[i],
-                                     (double)column(&set, 2)[i]};
-                if (distance < least[i]) least[i] = distance;
-                CHECK(distance > 0 || inside_bound(field.bound, p));
-            }
-        }
-        const spt_field whole = scene_field(shown, lanes);
-        evaluate(&whole, &set, 0, SPT_BATCH);
-        CHECK(differing(least, column(&set, 3), SPT_BATCH) == 0);
-    }
-}
-
-/* A point on a sphere, all directions alike. */
-static void draw_on_sphere(const spt_bound *sphere, double point[3]) {
-    const double height = check_uniform(-1, 1), turn = check_uniform(0, 6.283185307179586);
-    const double across = sqrt(1 - height * height), radius = (double)sphere->radius;
-    point[0] = (double)sphere->center[0] + radius * across * cos(turn);
-    point[1] = (double)sphere->center[1] + radius * height;
-    point[2] = (double)sphere->center[2] + radius * across * sin(turn);
-}
-
-/* The sphere of a house lies outside it all over, and would not if it were 4 % smaller. */
-static void scenes_village_bounds(void) {
-    static points set;
-    for (int object = 0; object < VILLAGE_OBJECTS; ++object) {
-        spt_bound bound;
-        const spt_field field = village_object(object, 1, &bound);
-        const float radius = bound.radius;
-        int met[2] = {0, 0};
-        CHECK(bound.kind == (object + 1 < VILLAGE_OBJECTS ? SPT_BOUND_SPHERE : SPT_BOUND_BOX));
-        if (bound.kind != SPT_BOUND_SPHERE) continue;
-        for (int smaller = 0; smaller < 2; ++smaller) {
-            bound.radius = smaller ? 0.96f * radius : radius;
-            for (int batch = 0; batch < 40; ++batch) {
-                for (int i = 0; i < SPT_BATCH; ++i) {
-                    double p[3];
-                    draw_on_sphere(&bound, p);
-                    for (int axis = 0; axis < 3; ++axis) column(&set, axis)[i] = (float)p[axis];
-                }
-                evaluate(&field, &set, 0, SPT_BATCH);
-                for (int i = 0; i < SPT_BATCH; ++i) met[smaller] += column(&set, 3)[i] <= 0;
-            }
-        }
-        CHECK_SAY(met[0] == 0 && met[1] > 0, "house %d: %d points inside, %d when smaller", object,
-                  met[0], met[1]);
-    }
-}
-
 void suite_scenes(void) {
     RUN(scenes_same_bits_at_every_width);
     RUN(scenes_place_in_the_batch_does_not_matter);
@@ -340,6 +192,4 @@ void suite_scenes(void) {
     RUN(scenes_convex_where_they_say_so);
     RUN(scenes_bound_contains_the_surface);
     RUN(scenes_deformed_constants);
-    RUN(scenes_village_is_the_union_of_its_objects);
-    RUN(scenes_village_bounds);
 }

@@ -227,6 +227,56 @@ static void scenes_tiles_permute_the_rays(void) {
     CHECK(memcmp(rays, tiled, sizeof rays) == 0);
 }
 
+/* How far a component of scene_camera()'s directions may be from scene_rays()'s, which rounds once:
+ * u = 2^-24, T and V half the picture's sides at distance 1. Each component of the axes and of
+ * their products with the place in the picture is rounded once, the sums twice: 4 (1 + T + V). The
+ * place across is x step - T, x step at most 2 T: step, product, difference and T itself 6 T, and
+ * one more for V. Both as vectors (sqrt 3), and 6 for the root, the division and the other side's
+ * rounding. Eye and target rounded to float turn the axes by the angle aim and, as far as they
+ * stand off the vertical (level), about it by aim / level. */
+static double camera_rounding(const scene *shown, int width, int height) {
+    const double origin[3] = {0, 0, 0};
+    const double half_across = tan(shown->field_of_view / 2 * 3.14159265358979323846 / 180);
+    const double half_up = half_across * height / width;
+    const double away = apart(shown->target, shown->eye);
+    const double aim = (apart(shown->eye, origin) + apart(shown->target, origin)) / away;
+    const double level =
+        hypot(shown->target[0] - shown->eye[0], shown->target[2] - shown->eye[2]) / away;
+    const double picture = 4 * (1 + half_across + half_up) + 6 * half_across + 7 * half_up;
+    return unit_roundoff *
+           (sqrt(3) * picture + aim * (1 + (half_across + 2 * half_up) / level) + 6);
+}
+
+static void scenes_frame_camera_is_the_camera(void) {
+    enum { width = 40, height = 24, count = width * height };
+    static spt_ray rays[count];
+    static spt_camera_ray seen[count];
+    static float x[count], y[count];
+    for (int i = 0; i < count; ++i) {
+        x[i] = (float)(i % width) + 0.5f;
+        y[i] = (float)(i / width) + 0.5f;
+    }
+    for (size_t s = 0; s < scene_count; ++s) {
+        const spt_camera camera = scene_camera(scenes[s], width, height);
+        const double rounding = camera_rounding(scenes[s], width, height);
+        float pixel_radius;
+        check_context("%s", scenes[s]->name);
+        scene_rays(scenes[s], width, height, rays, &pixel_radius);
+        CHECK(spt_camera_rays(&camera, width, height, count, x, y, seen) == SPT_OK);
+        for (int i = 0; i < count; ++i) {
+            const spt_ray *const one = &seen[i].ray;
+            CHECK(check_same_bits(one->t_min, rays[i].t_min));
+            CHECK(check_same_bits(one->t_max, rays[i].t_max));
+            for (int axis = 0; axis < 3; ++axis) {
+                const double difference =
+                    fabs((double)one->direction[axis] - (double)rays[i].direction[axis]);
+                CHECK(check_same_bits(one->origin[axis], rays[i].origin[axis]));
+                CHECK_SAY(difference <= rounding, "%g, allowed %g", difference, rounding);
+            }
+        }
+    }
+}
+
 static void scenes_by_name(void) {
     for (size_t s = 0; s < scene_count; ++s) CHECK(scene_named(scenes[s]->name) == scenes[s]);
     CHECK(scene_named("no such scene") == NULL);
@@ -240,5 +290,6 @@ void suite_scenes_known(void) {
     RUN(scenes_dodecahedron_power);
     RUN(scenes_rays_are_the_cameras);
     RUN(scenes_tiles_permute_the_rays);
+    RUN(scenes_frame_camera_is_the_camera);
     RUN(scenes_by_name);
 }
