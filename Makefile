@@ -3,6 +3,7 @@
 # make            static and shared library in build/
 # make check      build and run the tests (under a minute)
 # make demo       render the gallery into build/gallery/
+# make gallery    all pictures, large ones too
 # make bench      measure; writes build/bench/*.csv
 # make install    PREFIX=/usr/local DESTDIR= LIBDIR= INCLUDEDIR=
 #
@@ -71,7 +72,7 @@ OBJECTS := $(PLAIN:src/%.c=$B/src/%.o) \
 STATIC := $B/libspheretrace.a
 SHARED := $B/libspheretrace.so.$(VERSION)
 
-.PHONY: all check need_cxx demo bench install uninstall clean
+.PHONY: all check need_cxx demo gallery bench install uninstall clean
 .DELETE_ON_ERROR:
 .SUFFIXES:
 all: $(STATIC) $(SHARED)
@@ -167,7 +168,9 @@ $B/examples/scenes/%.o: examples/scenes/%.c $B/setup
 	$(Q)$(COMPILE) $(SCENE_MISSING) $(CFLAGS) $(KEEP) -c $< -o $@
 
 # Programs of one idea each; what they share is linked as far as they need it.
-PROGRAMS := one_ray batch_callback methods_compared render
+PROGRAMS := one_ray batch_callback one_frame methods_compared progressive shadow_pass render
+# Those that only say whether all is well when run without arguments.
+CHECKED := one_ray batch_callback one_frame methods_compared progressive shadow_pass
 SHARED_SOURCES := $(filter-out $(PROGRAMS:%=examples/%.c),$(wildcard examples/*.c))
 OIIO ?= $(shell pkg-config --exists OpenImageIO 2>/dev/null && \
           command -v $(firstword $(CXX)) >/dev/null 2>&1 && echo 1 || echo 0)
@@ -195,10 +198,16 @@ $B/examples/shared.a: $(SHARED_SOURCES:%.c=$B/%.o) $(OIIO_OBJECT)
 
 $(PROGRAMS:%=$B/%$(EXE)): $B/%$(EXE): $B/examples/%.o $B/examples/shared.a $(SCENES) $(STATIC)
 	$(call SAY,$@)
-	$(Q)$(EXAMPLE_LINK) $(CFLAGS) $(LDFLAGS) $^ $(OIIO_LIBS) -lm -o $@
+	$(Q)$(EXAMPLE_LINK) $(CFLAGS) $(LDFLAGS) $^ $(OIIO_LIBS) -lm -pthread -o $@
 
 demo: $B/render$(EXE)
 	$(RUN) $B/render$(EXE) --gallery $B/gallery
+
+gallery: $B/render$(EXE) $B/progressive$(EXE) $B/shadow_pass$(EXE)
+	$(RUN) $B/render$(EXE) --gallery $B/gallery --large
+	$(RUN) $B/progressive$(EXE) primitives $B/gallery/progressive_primitives.png
+	$(RUN) $B/progressive$(EXE) mandelbulb $B/gallery/progressive_mandelbulb.png
+	$(RUN) $B/shadow_pass$(EXE) $B/gallery/shadow_pass.png
 
 # ---- Tests --------------------------------------------------------------------------------------
 
@@ -235,11 +244,12 @@ need_cxx:
 	@[ -n "$(CXX_HERE)" ] || { echo 'skipped: no C++ compiler'; [ "$$SPT_REQUIRE" != 1 ]; }
 
 check: need_cxx $B/check$(EXE) $B/headers.ok $(if $(CXX_HERE),$B/exceptions$(EXE)) \
-       $(patsubst %,$B/%$(EXE),one_ray batch_callback methods_compared)
-	@for program in one_ray batch_callback methods_compared; do \
+       $(CHECKED:%=$B/%$(EXE)) $B/render$(EXE)
+	@for program in $(CHECKED); do \
 	  $(RUN) $B/$$program$(EXE) >$B/$$program.log || { cat $B/$$program.log; exit 1; }; \
 	done
 	@sh tests/readme.sh
+	@RUN='$(RUN)' EXE='$(EXE)' sh tests/render.sh $B
 	$(if $(CXX_HERE),@$(RUN) $B/exceptions$(EXE))
 	@$(RUN) $B/check$(EXE)
 
@@ -249,10 +259,16 @@ BENCH_PLAIN := $(filter-out tests/bench/scalar_loop.c tests/bench/peak_lanes.c,\
                  $(wildcard tests/bench/*.c))
 BENCH_OBJECTS := $(BENCH_PLAIN:%.c=$B/%.o) $B/tests/bench/scalar_loop.o \
                  $(SCENE_LANES:%=$B/tests/bench/peak_lanes_%.o)
-# The scalar loop that the driver is measured against gets all that the machine has.
+FRAME_SOURCES := $(wildcard tests/bench/frame/*.c)
+PEERS_SOURCES := $(wildcard tests/bench/peers/*.c) tests/bench/frame/frame_picture.c
+# The scalar loop that the driver is measured against gets all that the machine has, and so do the
+# callbacks that Embree calls.
 NATIVE ?= -march=native
+# Debian's libembree-dev, version 3, if it is there.
+EMBREE ?= $(shell printf '\043include <embree3/rtcore.h>\n' | \
+            $(CC) -fsyntax-only -x c - >/dev/null 2>&1 && echo 1 || echo 0)
 
-$B/tests/bench/scalar_loop.o: tests/bench/scalar_loop.c $B/setup
+$B/tests/bench/scalar_loop.o $B/tests/bench/peers/peers_user.o: $B/%.o: %.c $B/setup
 	@mkdir -p $(@D)
 	$(call SAY,$@)
 	$(Q)$(OWN) $(NATIVE) $(CFLAGS) $(KEEP) -c $< -o $@
@@ -274,10 +290,27 @@ $B/driver_bench$(EXE): $(BENCH_OBJECTS) $(SCENES) $(STATIC)
 	$(call SAY,$@)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 
+$B/frame_bench$(EXE): $(FRAME_SOURCES:%.c=$B/%.o) $B/tests/bench/bench.o \
+                      $B/tests/bench/scalar_loop.o $(SCENES) $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -pthread -o $@
+
+$B/peers_bench$(EXE): $(PEERS_SOURCES:%.c=$B/%.o) $B/tests/bench/bench.o $(SCENES) $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lembree3 -lm -o $@
+
+.PHONY: need_embree
+need_embree:
+	@[ "$(EMBREE)" = 1 ] || { echo 'skipped: peers_bench, no Embree 3 (libembree-dev)'; \
+	  [ "$$SPT_REQUIRE" != 1 ]; }
+
 # QUICK=1: smaller pictures and fewer rounds.
-bench: $B/driver_bench$(EXE)
+BENCHES := driver_bench frame_bench $(if $(filter 1,$(EMBREE)),peers_bench)
+bench: need_embree $(BENCHES:%=$B/%$(EXE))
 	@mkdir -p $B/bench
-	$(RUN) $B/driver_bench$(EXE) $(if $(QUICK),--quick) --output $B/bench
+	@for program in $(BENCHES); do \
+	  $(RUN) $B/$$program$(EXE) $(if $(QUICK),--quick) --output $B/bench || exit 1; \
+	done
 
 # ---- Installing ---------------------------------------------------------------------------------
 

@@ -34,12 +34,8 @@ static double wall_seconds(void) {
 
 progress progress_start(const char *label, size_t total) {
     const double now = wall_seconds();
-    progress bar = {label, total, now, now, is_terminal()};
+    progress bar = {label, total, now, now, is_terminal(), 0};
     return bar;
-}
-
-double progress_seconds(const progress *bar) {
-    return wall_seconds() - bar->start;
 }
 
 void progress_show(progress *bar, size_t done) {
@@ -57,5 +53,11 @@ void progress_show(progress *bar, size_t done) {
     fprintf(stderr, "\r%-20.20s [%s] %3d %% %6.1f s left", bar->label, line, (int)(share * 100.0),
             left);
     if (finished) fputc('\n', stderr);
+    bar->unfinished_line = !finished;
     fflush(stderr);
+}
+
+void progress_end(progress *bar) {
+    if (bar->unfinished_line) fputc('\n', stderr);
+    bar->unfinished_line = 0;
 }

@@ -10,7 +10,7 @@ typedef struct progress {
     const char *label;
     size_t total;
     double start, last; /* seconds of wall time: begin, last line */
-    int visible;
+    int visible, unfinished_line;
 } progress;
 
 progress progress_start(const char *label, size_t total);
@@ -18,7 +18,7 @@ progress progress_start(const char *label, size_t total);
 /* Shows that done of total are finished; at most 10 times a second, at once where that is all. */
 void progress_show(progress *bar, size_t done);
 
-/* Seconds of wall time since it started. */
-double progress_seconds(const progress *bar);
+/* Ends the line where it stands, if not all was finished. */
+void progress_end(progress *bar);
 
 #endif

@@ -1,246 +1,141 @@
 /* SPDX-License-Identifier: MIT
  *
- * The idea introduced here: a still picture. Rays go to the library tile by tile, hits come back
- * and become colours, or a map of what the tracing cost. */
+ * The idea introduced here: a still picture. Threads of the program's own trace its tiles, hits
+ * become colours, or a map of what the tracing cost; and processes can share one picture. */
 #include "gallery.h"
-#include "picture.h"
+#include "part_file.h"
+#include "render_options.h"
 #include "step_rules.h"
+#include "workers.h"
 
 #include <errno.h>
-#include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct options {
-    picture_job job;
-    const char *output, *gallery;
-    int samples; /* as asked for, or 0 */
-    char default_output[128];
-} options;
+/* As shells see a program that a signal ended. */
+enum { status_of_signal = 128 };
 
-static const char usage[] =
-    "Usage: render [options] SCENE\n"
-    "       render [--size WxH] [--samples N] --gallery FOLDER\n"
-    "Traces a picture of a scene.\n"
-    "\n"
-    "  -o, --output FILE   .png .ppm .pfm, and others if built with OpenImageIO; a .pfm holds the\n"
-    "                      numbers themselves (default: SCENE.png)\n"
-    "  --kind KIND         shaded, normal, heat (evaluations), fallback (rejected probes), depth "
-    "or\n"
-    "                      outcome (default: shaded)\n"
-    "  --method RULE[,..]  step rules, side by side (default: adaptive)\n"
-    "  --size WxH          pixels (default: 640x360)\n"
-    "  --samples N         N x N samples a pixel, 1 to 8 (default: 2, in the gallery 3)\n"
-    "  --budget N          most evaluations a ray, and the end of the heat scale (default: 128)\n"
-    "  --epsilon X         absolute tolerance, world length (default: 0.0001)\n"
-    "  --no-cone           trace down to epsilon instead of to half a pixel\n"
-    "  --lanes N           no wider than 1, 4, 8 or 16 (default: the widest there is)\n"
-    "  --gallery FOLDER    render the whole gallery\n"
-    "  --list              list scenes and step rules\n"
-    "  --help              print this\n"
-    "\n"
-    "Exit status: 0; 1 if a picture failed; 2 for a bad command line or a file that cannot be\n"
-    "written.\n";
-
-/* Prints a printf-style message about the command line and ends the program. */
-#if defined(__GNUC__)
-__attribute__((noreturn, format(printf, 1, 2)))
-#endif
-static void
-refuse(const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    fputs("render: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputs("\nTry render --help.\n", stderr);
-    va_end(arguments);
-    exit(2);
-}
-
-static long integer_of(const char *text, const char *option, long low, long high) {
-    char *end = NULL;
-    errno = 0;
-    const long value = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || errno != 0 || value < low || value > high) {
-        refuse("%s wants a whole number from %ld to %ld, not '%s'", option, low, high, text);
+/* Refuses what cannot become a file before anything is traced. */
+static void check_output(const char *path, int is_picture) {
+    if (is_picture && !image_is_known(path)) {
+        render_refuse("'%s' does not end in .png, .ppm or .pfm", path);
     }
-    return value;
+    if (!image_can_write(path)) render_refuse("cannot write '%s': %s", path, strerror(errno));
 }
 
-static void set_size(picture_job *job, const char *text) {
-    int end = 0;
-    if (sscanf(text, "%5dx%5d%n", &job->width, &job->height, &end) != 2 || text[end] != '\0' ||
-        job->width < 1 || job->height < 1 || job->width > 8192 || job->height > 8192) {
-        refuse("--size wants WIDTHxHEIGHT, each from 1 to 8192, not '%s'", text);
-    }
-}
-
-static void set_kind(picture_job *job, const char *name) {
-    for (int kind = 0; kind < picture_kinds; ++kind) {
-        if (strcmp(picture_kind_names[kind], name) == 0) {
-            job->kind = (picture_kind)kind;
-            return;
+static void check_rules(const picture_job *job) {
+    scene_parts parts;
+    scene_parts_of(job->shown, job->whole ? SCENE_WHOLE : SCENE_OBJECTS, 1, &parts);
+    for (size_t part = 0; part < parts.scene.count; ++part) {
+        for (int i = 0; i < job->panel_count; ++i) {
+            if (!step_rule_allowed(job->panels[i].method, parts.fields[part].flags)) {
+                render_refuse("scene '%s' is not all convex, which rule 'convex' needs",
+                              job->shown->name);
+            }
         }
     }
-    refuse("there is no kind '%s'", name);
 }
 
-static void set_methods(picture_job *job, const char *names) {
-    job->panels = 0;
-    for (const char *name = names;; ++name) {
-        char single[32];
-        const size_t length = strcspn(name, ",");
-        if (job->panels == picture_panels) refuse("at most %d step rules", picture_panels);
-        snprintf(single, sizeof single, "%.*s", (int)length, name);
-        const spt_method *method = length < sizeof single ? step_rule_named(single) : NULL;
-        if (method == NULL) refuse("there is no step rule '%.*s'", (int)length, name);
-        job->methods[job->panels++] = method;
-        name += length;
-        if (*name == '\0') return;
+/* Writes the picture, or a message. Returns the program's exit status. */
+static int write_picture(const char *path, const film *exposed) {
+    image picture = film_print(exposed, image_is_float(path));
+    errno = picture.pixels == NULL ? ENOMEM : 0;
+    const int written = picture.pixels != NULL && image_write(path, &picture) == 0;
+    if (!written) {
+        fprintf(stderr, "render: cannot write '%s'%s%s\n", path, errno != 0 ? ": " : "",
+                errno != 0 ? strerror(errno) : "");
     }
+    image_free(&picture);
+    return written ? 0 : 1;
 }
 
-static float positive_of(const char *text, const char *option) {
-    char *end = NULL;
-    const float value = strtof(text, &end);
-    if (end == text || *end != '\0' || !(value > 0.0f) || !(value < INFINITY)) {
-        refuse("%s wants a number above 0, not '%s'", option, text);
+static void report(const char *path, const film *exposed) {
+    uint64_t rays = 0, evaluations = 0, cones = 0, hits = 0, undecided = 0;
+    for (int i = 0; i < exposed->job.panel_count; ++i) {
+        const spt_statistics *statistics = &exposed->statistics[i];
+        rays += statistics->rays;
+        evaluations += statistics->evaluations;
+        cones += statistics->cone_evaluations;
+        hits += statistics->outcomes[SPT_HIT];
+        undecided += statistics->outcomes[SPT_LIMIT];
     }
-    return value;
+    const double share = rays != 0 ? 1.0 / (double)rays : 0.0;
+    printf("%s: %llu rays, %.2f evaluations a ray and %.2f of cones, %llu hits, %llu undecided\n",
+           path, (unsigned long long)rays, (double)evaluations * share, (double)cones * share,
+           (unsigned long long)hits, (unsigned long long)undecided);
 }
 
-static uint32_t lanes_of(const char *text) {
-    const long lanes = integer_of(text, "--lanes", 1, 16);
-    if (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16) {
-        refuse("--lanes wants 1, 4, 8 or 16, not '%s'", text);
-    }
-    return (uint32_t)lanes;
+static int merge(const render_options *chosen) {
+    char default_output[64];
+    film whole = part_merge(chosen->words, chosen->word_count);
+    if (whole.values == NULL) return 2;
+    snprintf(default_output, sizeof default_output, "%s.png", whole.job.shown->name);
+    const char *output = chosen->output != NULL ? chosen->output : default_output;
+    check_output(output, 1);
+    const int status = write_picture(output, &whole);
+    if (status == 0) report(output, &whole);
+    film_free(&whole);
+    return status;
 }
 
-static void list_all(void) {
-    printf("Scenes:\n");
-    for (size_t i = 0; i < scene_count; ++i) {
-        printf("  %-18s %s\n", scenes[i]->name, scenes[i]->description);
-    }
-    printf("Step rules:\n");
-    for (size_t i = 0; step_rule(i) != NULL; ++i) printf("  %s\n", spt_method_name(step_rule(i)));
-}
-
-/* Takes an option that has a value. */
-static void set_option(options *chosen, const char *option, const char *value) {
-    picture_job *job = &chosen->job;
-    if (value == NULL) refuse("%s wants a value", option);
-    if (strcmp(option, "-o") == 0 || strcmp(option, "--output") == 0) {
-        chosen->output = value;
-    } else if (strcmp(option, "--kind") == 0) {
-        set_kind(job, value);
-    } else if (strcmp(option, "--method") == 0) {
-        set_methods(job, value);
-    } else if (strcmp(option, "--size") == 0) {
-        set_size(job, value);
-    } else if (strcmp(option, "--samples") == 0) {
-        chosen->samples = (int)integer_of(value, option, 1, picture_largest_samples);
-    } else if (strcmp(option, "--budget") == 0) {
-        job->budget = (uint32_t)integer_of(value, option, 1, 1000000);
-    } else if (strcmp(option, "--epsilon") == 0) {
-        job->epsilon = positive_of(value, option);
-    } else if (strcmp(option, "--lanes") == 0) {
-        job->max_lanes = lanes_of(value);
+/* Says what an interrupt left undone, and writes the rest. Returns the program's exit status. */
+static int leave_partial(const char *path, const film *exposed, long missing, int is_part) {
+    fprintf(stderr, "render: interrupted, %ld of %llu tiles are missing; ", missing,
+            (unsigned long long)(exposed->end - exposed->first));
+    if (is_part) {
+        fprintf(stderr, "no part is written\n");
     } else {
-        chosen->gallery = value;
+        fprintf(stderr, "they are black in '%s'\n", path);
+        write_picture(path, exposed);
     }
+    return status_of_signal + workers_interrupted();
 }
 
-static int takes_value(const char *option) {
-    static const char *const names[] = {"-o",      "--output",  "--kind",   "--method",
-                                        "--size",  "--samples", "--budget", "--epsilon",
-                                        "--lanes", "--gallery"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
-        if (strcmp(option, names[i]) == 0) return 1;
+static int render(const render_options *chosen) {
+    const picture_job *job = &chosen->job;
+    const int is_part = chosen->of != 0;
+    char default_output[64];
+    const char *output = chosen->output != NULL ? chosen->output : default_output;
+    size_t first = 0, end = picture_pieces(job);
+    if (is_part) {
+        part_pieces(job, chosen->part, chosen->of, &first, &end);
+        snprintf(default_output, sizeof default_output, "%s_%d_of_%d.part", job->shown->name,
+                 chosen->part, chosen->of);
+    } else {
+        snprintf(default_output, sizeof default_output, "%s.png", job->shown->name);
     }
-    return 0;
-}
-
-/* Refuses what cannot become a picture before anything is traced. */
-static void check_job(options *chosen) {
-    picture_job *job = &chosen->job;
-    if (job->shown == NULL) refuse("which scene?");
-    for (int i = 0; i < job->panels; ++i) {
-        if (!step_rule_allowed(job->methods[i], job->shown->flags)) {
-            refuse("the field of scene '%s' is not convex, which rule 'convex' needs",
-                   job->shown->name);
-        }
+    check_rules(job);
+    if ((job->right - job->left + 4) * job->panel_count > image_largest_side) {
+        render_refuse("the picture is too wide");
     }
-    if (chosen->output == NULL) {
-        snprintf(chosen->default_output, sizeof chosen->default_output, "%s.png", job->shown->name);
-        chosen->output = chosen->default_output;
+    check_output(output, !is_part);
+    film exposed = film_create(job, first, end);
+    if (exposed.values == NULL) {
+        fprintf(stderr, "render: out of memory\n");
+        return 1;
     }
-    if (!image_is_known(chosen->output)) {
-        refuse("'%s' does not end in .png, .ppm or .pfm", chosen->output);
+    const long missing = film_expose(&exposed, chosen->threads, job->shown->name);
+    int status = missing >= 0 ? 0 : 1;
+    if (missing > 0) {
+        status = leave_partial(output, &exposed, missing, is_part);
+    } else if (missing == 0 && is_part) {
+        status = part_write(output, &exposed, chosen->part, chosen->of) == 0 ? 0 : 1;
+        if (status != 0) fprintf(stderr, "render: cannot write '%s'\n", output);
+    } else if (missing == 0) {
+        status = write_picture(output, &exposed);
     }
-    if (chosen->samples != 0) job->samples = chosen->samples;
-    if (job->width * job->panels > image_largest_side - 64) refuse("the picture is too wide");
-    job->numbers = image_is_float(chosen->output);
-    if (!image_can_write(chosen->output)) {
-        refuse("cannot write '%s': %s", chosen->output, strerror(errno));
-    }
-}
-
-static void parse(options *chosen, int count, char **arguments) {
-    chosen->job = picture_job_default(NULL);
-    for (int i = 1; i < count; ++i) {
-        const char *argument = arguments[i];
-        if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {
-            fputs(usage, stdout);
-            exit(0);
-        } else if (strcmp(argument, "--list") == 0) {
-            list_all();
-            exit(0);
-        } else if (strcmp(argument, "--no-cone") == 0) {
-            chosen->job.pixel_cone = 0;
-        } else if (takes_value(argument)) {
-            ++i;
-            set_option(chosen, argument, i < count ? arguments[i] : NULL);
-        } else if (argument[0] == '-') {
-            refuse("there is no option '%s'", argument);
-        } else if (chosen->job.shown != NULL) {
-            refuse("one scene at a time, not '%s' too", argument);
-        } else {
-            chosen->job.shown = scene_named(argument);
-            if (chosen->job.shown == NULL) refuse("there is no scene '%s'; see --list", argument);
-        }
-    }
+    if (status == 0) report(output, &exposed);
+    film_free(&exposed);
+    return status;
 }
 
 int main(int count, char **arguments) {
-    options chosen;
-    memset(&chosen, 0, sizeof chosen);
-    parse(&chosen, count, arguments);
+    const render_options chosen = render_options_of(count, arguments);
+    if (chosen.merge) return merge(&chosen);
+    workers_catch_interrupts();
+    if (chosen.gallery == NULL) return render(&chosen);
     const picture_job *job = &chosen.job;
-    if (chosen.gallery != NULL) {
-        if (job->shown != NULL)
-            refuse("the gallery renders its own scenes, not '%s'", job->shown->name);
-        return gallery_render(chosen.gallery, job->width, job->height,
-                              chosen.samples != 0 ? chosen.samples : 3);
-    }
-    check_job(&chosen);
-    spt_statistics statistics = spt_statistics_default();
-    image picture = picture_render(job, job->shown->name, &statistics);
-    if (picture.pixels == NULL) return 1;
-    const int written = image_write(chosen.output, &picture) == 0;
-    if (!written) {
-        fprintf(stderr, "render: cannot write '%s'%s%s\n", chosen.output, errno != 0 ? ": " : "",
-                errno != 0 ? strerror(errno) : "");
-        image_free(&picture);
-        return 1;
-    }
-    image_free(&picture);
-    printf("%s: %llu rays, %.2f evaluations a ray, %llu hits, %llu undecided, %u lanes\n",
-           chosen.output, (unsigned long long)statistics.rays,
-           (double)statistics.evaluations / (double)statistics.rays,
-           (unsigned long long)statistics.outcomes[SPT_HIT],
-           (unsigned long long)statistics.outcomes[SPT_LIMIT], statistics.lanes);
-    return 0;
+    return gallery_render(chosen.gallery, job->width, job->height,
+                          chosen.samples != 0 ? chosen.samples : 3, chosen.threads, chosen.large);
 }
