@@ -34,6 +34,20 @@ typedef struct spti_state {
 
 #define SPTI_STATE_BEGUN UINT64_C(0x5350544652414d45)
 
+/* The first pixel of m that pixel i of n overlaps, and the one behind the last: in integers, so
+ * that no rounding leaves one out. */
+uint32_t spti_overlap_begin(uint32_t i, uint32_t n, uint32_t m);
+uint32_t spti_overlap_end(uint32_t i, uint32_t n, uint32_t m);
+
+size_t spti_part_pixels(const spti_grid *grid);
+
+/* Whether a level keeps where its cones came to: the caller's rays have none. */
+int spti_keeps_cones(const spti_state *state, size_t level);
+
+/* Whether a caller's memory holds the state of a job; and begins one. */
+spt_status spti_state_check(const spti_job *job, const void *memory, size_t size);
+void spti_state_begin(spti_state *state, const spti_job *job);
+
 /* The order of chunks in a pass: tile by tile of the part, row by row. */
 uint64_t spti_level_chunks(const spti_level *level);
 void spti_level_chunk(const spti_level *level, uint64_t chunk, uint32_t *tile_column,
