@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
  * What a progressive frame keeps: its passes' grids, laid out in the caller's memory. */
-#include <math.h>
-
 #include "state.h"
 
 /* ---- Levels --------------------------------------------------------------------------------- */
@@ -41,8 +39,10 @@ static void set_grids(spti_state *state) {
         grid->part.y_0 = spti_overlap_begin(part.y_0, height, grid->height);
         grid->part.x_1 = spti_overlap_end(part.x_1 - 1, width, grid->width);
         grid->part.y_1 = spti_overlap_end(part.y_1 - 1, height, grid->height);
-        const double budget = ceil((double)pass->share * (double)frame->settings.budget);
-        state->levels[k].budget = budget < (double)UINT32_MAX ? (uint32_t)budget : UINT32_MAX;
+        /* At most the budget, and rounded up, so that a small share is not nothing. */
+        const double budget = (double)pass->share * (double)frame->settings.budget;
+        const uint32_t whole = (uint32_t)budget;
+        state->levels[k].budget = whole + ((double)whole < budget);
         part = grid->part;
         width = grid->width;
         height = grid->height;
