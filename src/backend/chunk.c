@@ -7,6 +7,7 @@
 
 #define PREPARE SPTI_JOIN2(spti_prepare, SPTI_ISA)
 #define COMPACT SPTI_JOIN2(spti_compact, SPTI_ISA)
+#define LIST SPTI_JOIN2(spti_list, SPTI_ISA)
 
 spti_prepare_fn PREPARE;
 int PREPARE(spti_chunk *chunk, const spti_march *march, size_t count) {
@@ -20,4 +21,11 @@ size_t COMPACT(spti_chunk *chunk, const unsigned char *arrays, size_t array_coun
     const size_t remain = compact_pass(chunk, arrays, array_count, count);
     spti_clear_upper();
     return remain;
+}
+
+spti_list_fn LIST;
+size_t LIST(const spti_chunk *chunk, size_t count, uint16_t slots[SPT_BATCH]) {
+    const size_t listed = list_pass(chunk, count, slots);
+    spti_clear_upper();
+    return listed;
 }

@@ -15,8 +15,8 @@ static void enter(const spti_bundles *bundles, const spt_bound *grown, spti_walk
     spti_clear_upper();
 }
 
-static void points(const spti_bundles *bundles, spti_walk *walk) {
-    cone_points(bundles, walk);
+static void points(const spti_bundles *bundles, unsigned walking, spti_walk *walk) {
+    cone_points(bundles, walking, walk);
     spti_clear_upper();
 }
 

@@ -15,18 +15,22 @@
 /* Cones of half angles near 60 degrees and above get nowhere, and are not convex in the image. */
 #define WIDEST_ALPHA 1.0f
 
-static float distance_between(const spti_ray_arrays *rays, size_t a, size_t b, int directions) {
-    float square = 0.0f;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float *const array = directions ? rays->direction[axis] : rays->origin[axis];
-        const float apart = array[a] - array[b];
-        square += apart * apart;
-    }
-    return sqrtf(square);
-}
-
 static float at_least(float a, float b) {
     return a < b ? b : a;
+}
+
+/* How far the corners of rectangles are from their middles at most; in an array of x, y or z each. */
+static void farthest_corners(const float (*arrays)[SPT_BATCH], float distance[SPTI_BUNDLES]) {
+    for (size_t i = 0; i < SPTI_BUNDLES; ++i) distance[i] = 0.0f;
+    for (size_t corner = SPTI_BUNDLES; corner <= 4 * SPTI_BUNDLES; corner += SPTI_BUNDLES) {
+        for (size_t i = 0; i < SPTI_BUNDLES; ++i) {
+            const float x = arrays[0][i] - arrays[0][corner + i];
+            const float y = arrays[1][i] - arrays[1][corner + i];
+            const float z = arrays[2][i] - arrays[2][corner + i];
+            distance[i] = at_least(x * x + y * y + z * z, distance[i]);
+        }
+    }
+    for (size_t i = 0; i < SPTI_BUNDLES; ++i) distance[i] = sqrtf(distance[i]);
 }
 
 /* Fills in what follows from the arrays of the usable bundles. */
@@ -81,19 +85,18 @@ void spti_bundles_of(const spti_view *view, spti_isa isa, unsigned present,
     bundles->present = present;
     bundles->usable = 0;
     bundles->longest_path = 0.0f;
+    float alpha[SPTI_BUNDLES], beta[SPTI_BUNDLES] = {0.0f};
+    farthest_corners((const float(*)[SPT_BATCH])rays.direction, alpha);
+    if (view->kind != SPT_CAMERA_PINHOLE) {
+        farthest_corners((const float(*)[SPT_BATCH])rays.origin, beta);
+    }
     for (size_t i = 0; i < SPTI_BUNDLES; ++i) {
-        float alpha = 0.0f, beta = 0.0f;
-        for (size_t corner = 1; corner <= 4; ++corner) {
-            const size_t j = corner * SPTI_BUNDLES + i;
-            alpha = at_least(distance_between(&rays, i, j, 1), alpha);
-            beta = at_least(distance_between(&rays, i, j, 0), beta);
-        }
         set_middle(bundles, i, &rays, i);
-        bundles->alpha[i] = alpha + DIRECTION_ROUNDING;
-        bundles->beta[i] = beta + beta * DIRECTION_ROUNDING;
+        bundles->alpha[i] = alpha[i] + DIRECTION_ROUNDING;
+        bundles->beta[i] = beta[i] + beta[i] * DIRECTION_ROUNDING;
         bundles->t_min[i] = view->t_min;
         bundles->t_max[i] = view->t_max;
-        if ((present >> i & 1) && bundles->alpha[i] < WIDEST_ALPHA && beta < FLT_MAX) {
+        if ((present >> i & 1) && bundles->alpha[i] < WIDEST_ALPHA && beta[i] < FLT_MAX) {
             bundles->usable |= 1u << i;
         }
     }
@@ -229,14 +232,6 @@ static void begin_walk(const spti_bundles *bundles, const spti_call *call, const
 
 static void ask(const spti_call *call, spti_walk *walk, unsigned walking) {
     if (call->field.batch != NULL) {
-        const unsigned first = spti_lowest_bit(walking);
-        for (size_t i = 0; i < SPTI_BUNDLES; ++i) {
-            walk->distance[i] = NAN;
-            if (walking >> i & 1) continue;
-            walk->x[i] = walk->x[first];
-            walk->y[i] = walk->y[first];
-            walk->z[i] = walk->z[first];
-        }
         call->field.batch(call->field.user, SPTI_BUNDLES, walk->x, walk->y, walk->z,
                           walk->distance);
         return;
@@ -283,7 +278,7 @@ uint64_t spti_bundles_walk(const spti_bundles *bundles, const spti_call *call, u
         if (bundles->usable >> i & 1 && !walks) walk.t[i] = INFINITY;
     }
     for (uint32_t step = 0; walking != 0 && step < steps; ++step) {
-        kernels->points(bundles, &walk);
+        kernels->points(bundles, walking, &walk);
         ask(call, &walk, walking);
         evaluations += count_bits(walking);
         walking = kernels->advance(bundles, &walk);

@@ -66,8 +66,9 @@ typedef struct spti_cone_kernels {
                  spti_ray_arrays *rays);
     /* Moves each t to where its bundle can first meet the bound, already grown; sets t_out. */
     void (*enter)(const spti_bundles *bundles, const spt_bound *grown, spti_walk *walk);
-    /* The points at t, or the nearest ones of the bound. */
-    void (*points)(const spti_bundles *bundles, spti_walk *walk);
+    /* The points at t of those that walk, of which there are some, or the nearest ones of the
+     * bound; others repeat one. Distances are set to NaN. */
+    void (*points)(const spti_bundles *bundles, unsigned walking, spti_walk *walk);
     /* Takes a step with those that walk; returns which ones still do. */
     unsigned (*advance)(const spti_bundles *bundles, spti_walk *walk);
 } spti_cone_kernels;

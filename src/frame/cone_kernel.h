@@ -61,7 +61,7 @@ SPTI_INLINE void cone_enter(const spti_bundles *bundles, const spt_bound *grown,
 
 /* A field is asked only within its bound: in the stead of a point outside, the bound's nearest
  * point is. */
-SPTI_INLINE void cone_points(const spti_bundles *bundles, spti_walk *walk) {
+SPTI_INLINE void cone_points(const spti_bundles *bundles, unsigned walking, spti_walk *walk) {
     const spt_bound *const bound = walk->bound;
     for (size_t at = 0; at < SPTI_BUNDLES; at += SPT_LANES) {
         const spt_mask walks = spt_less(spt_splat(0.0f), spt_load(&walk->walks[at]));
@@ -100,6 +100,17 @@ SPTI_INLINE void cone_points(const spti_bundles *bundles, spti_walk *walk) {
         spt_store(&walk->y[at], point[1]);
         spt_store(&walk->z[at], point[2]);
         spt_store(&walk->gap[at], gap);
+    }
+    /* What repeats a point is never somewhere that the field is not to be asked. */
+    const unsigned first = spti_lowest_bit(walking);
+    const spt_wide x = spt_splat(walk->x[first]), y = spt_splat(walk->y[first]);
+    const spt_wide z = spt_splat(walk->z[first]);
+    for (size_t at = 0; at < SPTI_BUNDLES; at += SPT_LANES) {
+        const spt_mask walks = spt_less(spt_splat(0.0f), spt_load(&walk->walks[at]));
+        spt_store(&walk->x[at], spt_select(walks, spt_load(&walk->x[at]), x));
+        spt_store(&walk->y[at], spt_select(walks, spt_load(&walk->y[at]), y));
+        spt_store(&walk->z[at], spt_select(walks, spt_load(&walk->z[at]), z));
+        spt_store(&walk->distance[at], spt_splat(NAN));
     }
 }
 

@@ -78,6 +78,7 @@ void spti_desk_begin(spti_desk *desk, const spti_job *job, const spt_settings *s
     desk->cone_evaluations = desk->kept = desk->culled = 0;
     memset(desk->settled, 0, job->scene.count);
     spti_union_scene(lazy, desk->calls, desk->list, &job->scene, settings);
+    lazy->one_origin = job->view.kind == SPT_CAMERA_PINHOLE;
     memset(desk->in_pool, 0, job->scene.count);
     desk->pooled = 0;
     spti_union_clear(lazy);
@@ -280,7 +281,7 @@ static void cut_at_depths(spti_desk *desk) {
     set_column(&desk->columns.t_max, desk->t_max, 4);
 }
 
-/* The rays of a chunk. Returns 0 where none is traced. */
+/* The rays of a chunk, but for what fill_rays() does. Returns 0 where none is traced. */
 static int make_rays(spti_desk *desk) {
     const spti_view *const view = &desk->job->view;
     const ptrdiff_t pinhole = view->kind == SPT_CAMERA_PINHOLE ? 0 : 4; /* all from the eye */
@@ -292,7 +293,6 @@ static int make_rays(spti_desk *desk) {
     if (has_rays_of_its_own(desk)) {
         if (!ask_camera(desk)) return 0;
     } else {
-        spti_cone_kernels_of[desk->isa]->rays(view, SPT_BATCH, desk->x, desk->y, &desk->rays);
         set_column(&desk->columns.t_min, &view->t_min, 0);
         set_column(&desk->columns.t_max, &view->t_max, 0);
         set_column(&desk->columns.path, NULL, 0);
@@ -300,6 +300,13 @@ static int make_rays(spti_desk *desk) {
     set_column(&desk->columns.active, desk->all ? NULL : desk->active, 4);
     cut_at_depths(desk);
     return 1;
+}
+
+/* The origins and directions of our own cameras: only of chunks that may meet something. */
+static void fill_rays(spti_desk *desk) {
+    if (has_rays_of_its_own(desk)) return;
+    spti_cone_kernels_of[desk->isa]->rays(&desk->job->view, SPT_BATCH, desk->x, desk->y,
+                                          &desk->rays);
 }
 
 int spti_desk_chunk(spti_desk *desk, size_t index) {
@@ -353,6 +360,7 @@ static void pool_chunk(spti_desk *desk) {
                SPTI_BUNDLES * sizeof *t);
     }
     memcpy(desk->places + chunk * SPT_BATCH, desk->own_places, sizeof desk->own_places);
+    fill_rays(desk);
     spti_union_add(&desk->lazy, &desk->columns, 0, SPT_BATCH);
 }
 
@@ -451,10 +459,15 @@ static void trace_alone(spti_desk *desk, const spt_hits *image) {
     const float *const t = desk->block_t + (size_t)component * SPTI_BUNDLES;
     spt_rays columns = desk->columns;
     spti_call call = *call_of(desk, component);
-    for (size_t i = 0; i < SPT_BATCH; ++i) {
-        const float own = has_rays_of_its_own(desk) ? desk->t_min[i] : desk->job->view.t_min;
-        const float start = t[i / SPTI_BUNDLES] < FLT_MAX ? t[i / SPTI_BUNDLES] : FLT_MAX;
-        desk->t_min[i] = own >= 0.0f && start > own ? start : own; /* a bad ray stays one */
+    const int owns = has_rays_of_its_own(desk);
+    fill_rays(desk);
+    for (size_t block = 0; block < SPTI_BUNDLES; ++block) {
+        const float start = t[block] < FLT_MAX ? t[block] : FLT_MAX;
+        float *const t_min = desk->t_min + block * SPTI_GROUP;
+        for (size_t i = 0; i < SPTI_GROUP; ++i) {
+            const float own = owns ? t_min[i] : desk->job->view.t_min;
+            t_min[i] = own >= 0.0f && start > own ? start : own; /* a bad ray stays one */
+        }
     }
     set_column(&columns.t_min, desk->t_min, 4);
     call.rays = &columns;

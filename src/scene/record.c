@@ -5,10 +5,6 @@
 
 #include "scene_call.h"
 
-SPTI_INLINE int reached(const spti_record *record) {
-    return record->outcome != SPT_MISS && record->outcome != SPT_BAD_RAY;
-}
-
 /* The results as words: a float, an int32_t or a uint32_t. */
 typedef union record_word {
     float real;
@@ -61,13 +57,14 @@ SPTI_INLINE int is_steep(const spti_union *lazy, size_t ray) {
     return lazy->records[ray].steep || spti_is_steep(row(lazy, SPTI_ROW_STEEPEST, ray));
 }
 
+/* Without an event the nearest one is at infinity, and so is f there. */
 SPTI_INLINE void words_of(const spti_union *lazy, size_t ray, record_word words[RESULTS]) {
     const spti_record *const record = &lazy->records[ray];
     const float unit = row(lazy, SPTI_ROW_UNIT, ray);
     const int there = row(lazy, SPTI_ROW_CANDIDATE_RATIO, ray) < INFINITY;
     const uint32_t steep = is_steep(lazy, ray) ? SPT_FLAG_STEEP : 0u;
-    words[T].real = reached(record) ? row(lazy, SPTI_ROW_NEAREST, ray) * unit : INFINITY;
-    words[RESIDUAL].real = reached(record) ? row(lazy, SPTI_ROW_VALUE, ray) : INFINITY;
+    words[T].real = row(lazy, SPTI_ROW_NEAREST, ray) * unit;
+    words[RESIDUAL].real = row(lazy, SPTI_ROW_VALUE, ray);
     words[OUTCOME].signed_whole = record->outcome;
     words[EVALUATIONS].real = row(lazy, SPTI_ROW_SPENT, ray); /* bits */
     words[FLAGS].whole = steep | (record->inside ? SPT_FLAG_INSIDE : 0u);
@@ -92,15 +89,33 @@ static void words_of_miss(record_word words[RESULTS]) {
     words[EVALUATIONS].whole = words[FLAGS].whole = words[FALLBACKS].whole = 0;
 }
 
-/* One result of all active rays; which one is a constant. */
+/* Whether the places of four rays follow each other. */
+SPTI_INLINE int is_run(const size_t *places, size_t ray) {
+    return places[ray + 1] == places[ray] + 1 && places[ray + 2] == places[ray] + 2 &&
+           places[ray + 3] == places[ray] + 3;
+}
+
+/* One result of all active rays; which one is a constant. From a copy of the union: then the
+ * compiler knows that what is written does not change it. Pixels come in runs of four. */
 SPTI_INLINE void write_result(const spti_union *lazy, int result, char *base, ptrdiff_t stride,
                               size_t first, const size_t *places) {
-    for (size_t i = 0; i < lazy->count; ++i) {
-        record_word words[RESULTS];
+    const spti_union rays = *lazy;
+    size_t i = 0;
+    for (; i < rays.count; ++i) {
+        record_word words[4][RESULTS];
         const size_t place = places != NULL ? places[i] : first + i;
-        if (!lazy->records[i].active) continue;
-        words_of(lazy, i, words);
-        memcpy(base + (ptrdiff_t)place * stride, &words[result], 4);
+        char *const to = base + (ptrdiff_t)place * stride;
+        if (rays.all_active && i + 4 <= rays.count && (places == NULL || is_run(places, i))) {
+            for (size_t k = 0; k < 4; ++k) words_of(&rays, i + k, words[k]);
+            memcpy(to, &words[0][result], 4);
+            memcpy(to + stride, &words[1][result], 4);
+            memcpy(to + 2 * stride, &words[2][result], 4);
+            memcpy(to + 3 * stride, &words[3][result], 4);
+            i += 3;
+        } else if (rays.records[i].active) {
+            words_of(&rays, i, words[0]);
+            memcpy(to, &words[0][result], 4);
+        }
     }
 }
 

@@ -58,6 +58,7 @@ void spti_scene_call(spti_call *call, spti_union *lazy, const spt_scene *scene, 
     call->settings.method = method_of(&call->field, settings);
     call->hits = hits;
     call->statistics = statistics;
+    call->one_origin = lazy->one_origin;
     call->leave = spti_union_leave;
     call->owner = lazy;
     call->allowance = &lazy->allowance;
@@ -118,6 +119,7 @@ void spti_union_scene(spti_union *lazy, spti_call *calls, uint32_t *list, const 
     lazy->isa = spti_isa_choose(settings->max_lanes);
     lazy->epsilon = settings->epsilon;
     lazy->allowance = INT64_MAX;
+    lazy->one_origin = 0;
 }
 
 static void trace_pools(spti_union *lazy, size_t count, const spt_rays *rays, const spt_hits *hits,

@@ -70,31 +70,48 @@ static int is_active(const spt_column *active, size_t ray) {
 void spti_union_clear(spti_union *lazy) {
     lazy->count = 0;
     lazy->most_spent = 0;
+    lazy->all_active = 1;
 }
 
-/* An inactive ray is not looked at: its slot repeats an active one. */
+/* Marks which rays of a window are active, and picks those to look at: an inactive ray is not, its
+ * slot repeats an active one. Returns whether there is one. */
+static int pick_active(spti_union *lazy, const spt_column *active, size_t window, size_t first,
+                       size_t size) {
+    spti_record *const records = lazy->records + window;
+    uint16_t *const alive = lazy->alive + window / SPTI_GROUP;
+    uint16_t *const picked = lazy->chunk.picked;
+    size_t some = size;
+    if (active->first == NULL) {
+        const unsigned last = (1u << (size - 1) % SPTI_GROUP) * 2u - 1u;
+        for (size_t group = 0; group * SPTI_GROUP < size; ++group) alive[group] = 0xffff;
+        alive[(size - 1) / SPTI_GROUP] = (uint16_t)last;
+        for (int i = 0; i < (int)size; ++i) picked[i] = (uint16_t)i;
+        return 1;
+    }
+    memset(alive, 0, (size + SPTI_GROUP - 1) / SPTI_GROUP * sizeof *alive);
+    for (size_t i = size; i-- > 0;) {
+        if (is_active(active, first + i)) {
+            some = i;
+            alive[i / SPTI_GROUP] |= (uint16_t)(1u << i % SPTI_GROUP);
+        } else {
+            records[i].active = 0;
+            lazy->all_active = 0;
+        }
+    }
+    if (some == size) return 0;
+    for (size_t i = 0; i < size; ++i) picked[i] = (uint16_t)(records[i].active ? i : some);
+    return 1;
+}
+
 void spti_union_add(spti_union *lazy, const spt_rays *rays, size_t first, size_t size) {
     static const spti_record fresh = {-1, SPT_MISS, 0, 0, 1};
     const size_t window = lazy->count;
     spti_chunk *const chunk = &lazy->chunk;
     spti_record *const records = lazy->records + window;
     uint16_t *const alive = lazy->alive + window / SPTI_GROUP;
-    size_t some = size;
     lazy->count += size;
-    memset(alive, 0, (size + SPTI_GROUP - 1) / SPTI_GROUP * sizeof *alive);
-    for (size_t i = size; i-- > 0;) {
-        records[i] = fresh;
-        if (is_active(&rays->active, first + i)) {
-            some = i;
-            alive[i / SPTI_GROUP] |= (uint16_t)(1u << i % SPTI_GROUP);
-        } else {
-            records[i].active = 0;
-        }
-    }
-    if (some == size) return;
-    for (size_t i = 0; i < size; ++i) {
-        chunk->picked[i] = (uint16_t)(records[i].active ? i : some);
-    }
+    for (size_t i = 0; i < size; ++i) records[i] = fresh;
+    if (!pick_active(lazy, &rays->active, window, first, size)) return;
     spti_load_chunk(rays, chunk, size, first);
     spti_union_kernels_of[lazy->isa]->begin(lazy, window, size);
     for (size_t group = 0; group * SPTI_GROUP < size; ++group) {
@@ -165,80 +182,148 @@ static void clear_tasks(spti_union *lazy, size_t place) {
 
 /* ---- Leaving -------------------------------------------------------------------------------- */
 
-/* Keeps a march for later. */
-static void save_march(spti_union *lazy, size_t slot, size_t ray) {
+/* Some of the rays that leave a chunk. */
+typedef struct union_leavers {
+    size_t count;
+    uint16_t slots[SPT_BATCH], rays[SPT_BATCH];
+} union_leavers;
+
+static void copy_column(const union_leavers *leavers, const float *from, float *to) {
+    for (size_t i = 0; i < leavers->count; ++i) to[leavers->rays[i]] = from[leavers->slots[i]];
+}
+
+/* Before the first march of a group is kept: its vectors are taken whole, and what stands for
+ * nothing must be ordinary numbers. */
+static void clear_states(spti_union *lazy, size_t group) {
+    for (int what = SPTI_STATE_T; what <= SPTI_STATE_SCALE; ++what) {
+        float *const state = spti_union_state(lazy, lazy->running, what) + group * SPTI_GROUP;
+        memset(state, 0, SPTI_GROUP * sizeof *state);
+    }
+}
+
+/* Keeps marches for later. */
+static void save_marches(spti_union *lazy, const union_leavers *leavers) {
     static const unsigned char from[] = {SPTI_T,      SPTI_VALUE,     SPTI_PROBE,
                                          SPTI_MEMORY, SPTI_PENDING_T, SPTI_PENDING_VALUE,
                                          SPTI_SCALE};
-    spti_chunk *const chunk = &lazy->chunk;
+    float(*const array)[SPTI_ROOM] = lazy->chunk.array;
     const size_t place = lazy->running;
-    const float radius = chunk->array[SPTI_VALUE][slot] * chunk->array[SPTI_SCALE][slot];
-    for (int what = SPTI_STATE_T; what <= SPTI_STATE_SCALE; ++what) {
-        spti_union_state(lazy, place, what)[ray] = chunk->array[from[what - SPTI_STATE_T]][slot];
+    const float *const t = array[SPTI_T], *const value = array[SPTI_VALUE];
+    const float *const scale = array[SPTI_SCALE];
+    float *const key = spti_union_state(lazy, place, SPTI_STATE_KEY);
+    uint16_t *const begun = spti_union_masks(lazy, lazy->begun, place);
+    for (size_t i = 0; i < leavers->count; ++i) {
+        const size_t ray = leavers->rays[i];
+        if (begun[ray / SPTI_GROUP] == 0) clear_states(lazy, ray / SPTI_GROUP);
+        set(begun, ray);
     }
-    set(spti_union_masks(lazy, lazy->begun, place), ray);
-    spti_union_state(lazy, place, SPTI_STATE_KEY)[ray] = chunk->array[SPTI_T][slot] + radius;
+    for (int what = SPTI_STATE_T; what <= SPTI_STATE_SCALE; ++what) {
+        copy_column(leavers, array[from[what - SPTI_STATE_T]], spti_union_state(lazy, place, what));
+    }
+    for (size_t i = 0; i < leavers->count; ++i) {
+        const size_t slot = leavers->slots[i];
+        key[leavers->rays[i]] = t[slot] + value[slot] * scale[slot];
+    }
 }
 
-/* The component ended on a ray: at an event, or without one. */
-static void end_march(spti_union *lazy, size_t slot, size_t ray, int outcome) {
+/* The component is left without an event: until the zone at which it was cut off, and on behind
+ * it. */
+static void miss_until_zone(spti_union *lazy, size_t slot, size_t ray) {
     const size_t place = lazy->running;
-    const int32_t component = (int32_t)lazy->list[place];
-    spti_record *const record = &lazy->records[ray];
-    float *const nearest = &spti_union_row(lazy, SPTI_ROW_NEAREST)[ray];
-    float *const key = &spti_union_state(lazy, place, SPTI_STATE_KEY)[ray];
-    const float t = lazy->chunk.array[SPTI_T][slot];
-    *key = INFINITY;
-    if (outcome == SPT_MISS) {
-        if (lazy->zone_count > 0) { /* until the zone at which it was cut off, and on behind it */
-            const float begin = spti_union_state(lazy, place, SPTI_STATE_CLEAR)[ray];
-            if (begin <= spti_union_state(lazy, place, SPTI_STATE_EXIT)[ray]) *key = begin;
-            clear(spti_union_masks(lazy, lazy->begun, place), ray);
-            clear(spti_union_masks(lazy, lazy->cut, place), ray);
-            clear(spti_union_masks(lazy, lazy->tasks, place), ray);
-            if (lazy->chunk.array[SPTI_SCALE][slot] < 0.0f) {
-                set(spti_union_masks(lazy, lazy->inside, place), ray);
-            }
-        }
-    } else if (t < *nearest || (t <= *nearest && component < record->component)) {
-        *nearest = t;
-        spti_union_row(lazy, SPTI_ROW_VALUE)[ray] = lazy->chunk.array[SPTI_VALUE][slot];
-        record->component = component;
-        record->outcome = (unsigned char)outcome;
+    const float begin = spti_union_state(lazy, place, SPTI_STATE_CLEAR)[ray];
+    if (begin <= spti_union_state(lazy, place, SPTI_STATE_EXIT)[ray]) {
+        spti_union_state(lazy, place, SPTI_STATE_KEY)[ray] = begin;
     }
+    clear(spti_union_masks(lazy, lazy->begun, place), ray);
+    clear(spti_union_masks(lazy, lazy->cut, place), ray);
+    clear(spti_union_masks(lazy, lazy->tasks, place), ray);
+    if (lazy->chunk.array[SPTI_SCALE][slot] < 0.0f) {
+        set(spti_union_masks(lazy, lazy->inside, place), ray);
+    }
+}
+
+/* What rays take along to whatever comes next. */
+static void keep_rays(const spti_call *call, const spti_leavers *leavers, spti_union *lazy) {
+    static const struct {
+        unsigned char wanted, from, to;
+    } columns[] = {{SPTI_WANT_SLOPE, SPTI_STEEPEST, SPTI_ROW_STEEPEST},
+                   {SPTI_WANT_FALLBACKS, SPTI_FALLBACKS, SPTI_ROW_FALLBACKS},
+                   {SPTI_WANT_CANDIDATE, SPTI_CANDIDATE_T, SPTI_ROW_CANDIDATE_T},
+                   {SPTI_WANT_CANDIDATE, SPTI_CANDIDATE_RATIO, SPTI_ROW_CANDIDATE_RATIO}};
+    const float *const index = lazy->chunk.array[SPTI_INDEX];
+    for (size_t k = 0; k < sizeof columns / sizeof *columns; ++k) {
+        const float *const from = lazy->chunk.array[columns[k].from];
+        float *const to = spti_union_row(lazy, columns[k].to);
+        if (!(call->wants & columns[k].wanted)) continue;
+        for (size_t i = 0; i < leavers->count; ++i) {
+            const size_t slot = leavers->slots[i];
+            to[(int)index[slot]] = from[slot];
+        }
+    }
+    for (size_t i = 0; leavers->steep && i < leavers->count; ++i) {
+        lazy->records[(int)index[leavers->slots[i]]].steep = 1;
+    }
+}
+
+static void list_ray(union_leavers *leavers, size_t slot, size_t ray) {
+    leavers->slots[leavers->count] = (uint16_t)slot;
+    leavers->rays[leavers->count++] = (uint16_t)ray;
+}
+
+/* Ends the component on rays, at an event or without one, and lists those that it only stopped on,
+ * and those that it missed. Nearly all rays meet what they turn to first, from outside, so that the
+ * branches are foreseen. */
+static void end_marches(spti_union *lazy, const spti_leavers *leavers, union_leavers *stopped,
+                        union_leavers *missed) {
+    float(*const array)[SPTI_ROOM] = lazy->chunk.array;
+    const int32_t component = (int32_t)lazy->list[lazy->running];
+    const uint16_t *const cut = spti_union_masks(lazy, lazy->cut, lazy->running);
+    float *const key = spti_union_state(lazy, lazy->running, SPTI_STATE_KEY);
+    float *const nearest = spti_union_row(lazy, SPTI_ROW_NEAREST);
+    float *const value = spti_union_row(lazy, SPTI_ROW_VALUE);
+    float *const row_spent = spti_union_row(lazy, SPTI_ROW_SPENT);
+    spti_record *const records = lazy->records;
+    const size_t count = leavers->count;
+    const uint32_t age = leavers->age;
+    uint32_t most_spent = lazy->most_spent;
+    for (size_t i = 0; i < count; ++i) {
+        const size_t slot = leavers->slots[i], ray = (size_t)(int)array[SPTI_INDEX][slot];
+        const unsigned char outcome = leavers->outcomes[i];
+        const float t = array[SPTI_T][slot];
+        uint32_t spent;
+        memcpy(&spent, &array[SPTI_SPENT][slot], sizeof spent);
+        spent += age;
+        memcpy(&row_spent[ray], &spent, sizeof spent);
+        most_spent = spent > most_spent ? spent : most_spent;
+        key[ray] = INFINITY;
+        /* What shows its cut is entered there, not left. */
+        if (array[SPTI_SCALE][slot] < 0.0f && !has(cut, ray)) records[ray].inside = 1;
+        if (outcome == SPTI_STOPPED) {
+            list_ray(stopped, slot, ray);
+        } else if (outcome == SPT_MISS) {
+            list_ray(missed, slot, ray);
+        } else if (t < nearest[ray] || (t <= nearest[ray] && component < records[ray].component)) {
+            nearest[ray] = t;
+            value[ray] = array[SPTI_VALUE][slot];
+            records[ray].component = component;
+            records[ray].outcome = outcome;
+        }
+    }
+    lazy->most_spent = most_spent;
 }
 
 void spti_union_leave(const spti_call *call, spti_chunk *chunk, spti_leavers *leavers,
                       size_t first) {
     spti_union *const lazy = call->owner;
-    const uint16_t *const cut = spti_union_masks(lazy, lazy->cut, lazy->running);
+    union_leavers stopped, missed;
+    (void)chunk;
     (void)first;
-    for (size_t i = 0; i < leavers->count; ++i) {
-        const size_t slot = leavers->slots[i];
-        const size_t ray = (size_t)chunk->array[SPTI_INDEX][slot];
-        const uint32_t spent = leavers->age + spti_spent(chunk, slot);
-        spti_record *const record = &lazy->records[ray];
-        memcpy(&spti_union_row(lazy, SPTI_ROW_SPENT)[ray], &spent, sizeof spent);
-        lazy->most_spent = spent > lazy->most_spent ? spent : lazy->most_spent;
-        /* What shows its cut is entered there, not left. */
-        record->inside |= chunk->array[SPTI_SCALE][slot] < 0.0f && !has(cut, ray);
-        record->steep |= leavers->steep != 0;
-        if (call->wants & SPTI_WANT_SLOPE) {
-            spti_union_row(lazy, SPTI_ROW_STEEPEST)[ray] = chunk->array[SPTI_STEEPEST][slot];
-        }
-        if (call->wants & SPTI_WANT_FALLBACKS) {
-            spti_union_row(lazy, SPTI_ROW_FALLBACKS)[ray] = chunk->array[SPTI_FALLBACKS][slot];
-        }
-        if (call->wants & SPTI_WANT_CANDIDATE) {
-            spti_union_row(lazy, SPTI_ROW_CANDIDATE_T)[ray] = chunk->array[SPTI_CANDIDATE_T][slot];
-            spti_union_row(lazy, SPTI_ROW_CANDIDATE_RATIO)[ray] =
-                chunk->array[SPTI_CANDIDATE_RATIO][slot];
-        }
-        if (leavers->outcomes[i] == SPTI_STOPPED) {
-            save_march(lazy, slot, ray);
-        } else {
-            end_march(lazy, slot, ray, leavers->outcomes[i]);
-        }
+    stopped.count = missed.count = 0;
+    end_marches(lazy, leavers, &stopped, &missed);
+    if (call->wants != 0 || leavers->steep) keep_rays(call, leavers, lazy);
+    if (stopped.count > 0) save_marches(lazy, &stopped);
+    for (size_t i = 0; lazy->zone_count > 0 && i < missed.count; ++i) {
+        miss_until_zone(lazy, missed.slots[i], missed.rays[i]);
     }
 }
 

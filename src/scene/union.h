@@ -28,14 +28,14 @@ enum {
     SPTI_ROW_FALLBACKS,
     SPTI_ROW_CANDIDATE_T,
     SPTI_ROW_CANDIDATE_RATIO,
-    SPTI_ROW_LEAST,  /* of the components' keys, */
-    SPTI_ROW_SECOND, /* the second, */
+    SPTI_ROW_SECOND, /* the second of the components' keys, */
     SPTI_ROW_WHICH,  /* and the place in the list of the least */
     SPTI_ROWS
 };
 
 /* What is known of a component on a ray: up to where the ray is free of it, where it is to be
- * traced to, and the march while another component is nearer. */
+ * traced to, and the march while another component is nearer: of groups with a march that has begun
+ * only. */
 enum {
     SPTI_STATE_KEY,
     SPTI_STATE_EXIT,
@@ -67,6 +67,8 @@ typedef struct spti_union {
     const spt_zone *zones;
     size_t zone_count;
     size_t count, pool; /* rays, and most of them */
+    int all_active;
+    int one_origin; /* all rays of the calls have one, and no path before (driver.h) */
     uint32_t budget, most_spent;
     spti_isa isa;
     float epsilon;     /* as in the settings */

@@ -28,12 +28,14 @@ SPTI_INLINE void union_begin(spti_union *lazy, size_t window, size_t count) {
             spt_store(&spti_union_row(lazy, SPTI_ROW_LENGTH)[to], length);
             spt_store(&spti_union_row(lazy, SPTI_ROW_REACH)[to], rays.ray.reach);
             spt_store(&spti_union_row(lazy, SPTI_ROW_UNIT)[to], unit);
-            spt_store(&spti_union_row(lazy, SPTI_ROW_POWER)[to], spt_div(spt_splat(1.0f), unit));
+            spt_store(&spti_union_row(lazy, SPTI_ROW_POWER)[to], rays.power);
             spt_store(&spti_union_row(lazy, SPTI_ROW_T_MIN)[to], rays.t_min);
             spt_store(&spti_union_row(lazy, SPTI_ROW_T_MAX)[to], rays.t_max);
             spt_store(&spti_union_row(lazy, SPTI_ROW_EPSILON)[to],
                       prepare_epsilon(lazy->epsilon, length));
-            spt_store(&spti_union_row(lazy, SPTI_ROW_PATH)[to], spt_div(rays.path, length));
+            if (!lazy->one_origin) {
+                spt_store(&spti_union_row(lazy, SPTI_ROW_PATH)[to], spt_div(rays.path, length));
+            }
             for (int row = SPTI_ROW_NEAREST; row <= SPTI_ROW_CANDIDATE_RATIO; ++row) {
                 const int infinite = row == SPTI_ROW_NEAREST || row == SPTI_ROW_VALUE ||
                                      row == SPTI_ROW_CANDIDATE_RATIO;
@@ -51,6 +53,11 @@ SPTI_INLINE void union_enter(spti_union *lazy, size_t place, const float *starts
         spt_wide t_min = spt_load(&spti_union_row(lazy, SPTI_ROW_T_MIN)[at]);
         spt_wide t_max = spt_load(&spti_union_row(lazy, SPTI_ROW_T_MAX)[at]);
         if (starts != NULL) {
+            const spt_mask nowhere = spt_less_equal(spt_splat(INFINITY), spt_load(&starts[at]));
+            if (spt_mask_bits(nowhere) == SPTI_EVERY_LANE) { /* nothing else of it is looked at */
+                spt_store(&spti_union_state(lazy, place, SPTI_STATE_KEY)[at], spt_splat(INFINITY));
+                continue;
+            }
             const spt_wide power = spt_load(&spti_union_row(lazy, SPTI_ROW_POWER)[at]);
             t_min = spt_max(spt_mul(spt_load(&starts[at]), power), t_min);
         }
@@ -69,9 +76,8 @@ SPTI_INLINE void union_enter(spti_union *lazy, size_t place, const float *starts
         spt_store(&spti_union_state(lazy, place, SPTI_STATE_KEY)[at],
                   spt_select(met, t_min, spt_splat(INFINITY)));
         spt_store(&spti_union_state(lazy, place, SPTI_STATE_EXIT)[at], t_max);
-        /* Vectors are taken whole: what stands for nothing must be ordinary numbers. */
-        for (int what = SPTI_STATE_T; what <= SPTI_STATE_CLEAR; ++what) {
-            spt_store(&spti_union_state(lazy, place, what)[at], spt_splat(0.0f));
+        if (lazy->zone_count > 0) { /* taken whole: no lane may hold anything but a number */
+            spt_store(&spti_union_state(lazy, place, SPTI_STATE_CLEAR)[at], spt_splat(0.0f));
         }
     }
 }
@@ -89,7 +95,6 @@ SPTI_INLINE unsigned union_least(const spti_union *lazy, size_t at, spt_wide *wh
         least = spt_select(nearer, key, least);
         *which = spt_select(nearer, spt_splat((float)place), *which);
     }
-    spt_store(&spti_union_row(lazy, SPTI_ROW_LEAST)[at], least);
     spt_store(&spti_union_row(lazy, SPTI_ROW_SECOND)[at], second);
     spt_store(&spti_union_row(lazy, SPTI_ROW_WHICH)[at], *which);
     /* At equal t the component might be met there, too, and be the lower one. */
@@ -118,6 +123,12 @@ SPTI_INLINE int union_plan(spti_union *lazy) {
         alive &= undecided;
         lazy->alive[group] = (uint16_t)alive;
         any |= alive;
+        if (alive == 0) { /* as most are in the last sweep */
+            for (size_t place = 0; place < lazy->listed; ++place) {
+                spti_union_masks(lazy, lazy->tasks, place)[group] = 0;
+            }
+            continue;
+        }
         for (size_t place = 0; place < lazy->listed; ++place) {
             const spt_wide number = spt_splat((float)place);
             unsigned mine = 0;
@@ -173,7 +184,7 @@ SPTI_INLINE void union_take_march(const spti_union *lazy, const spti_call *call,
     for (int axis = 0; axis < 3; ++axis) {
         const spt_wide origin = spt_load(&spti_union_row(lazy, SPTI_ROW_ORIGIN + axis)[at]);
         const spt_wide direction = spt_load(&spti_union_row(lazy, SPTI_ROW_DIRECTION + axis)[at]);
-        union_put(into, SPTI_ORIGIN + axis, origin);
+        if (!call->one_origin) union_put(into, SPTI_ORIGIN + axis, origin);
         union_put(into, SPTI_DIRECTION + axis, direction);
         union_put(into, SPTI_X + axis, spt_add(origin, spt_mul(probe, direction)));
     }
@@ -194,12 +205,12 @@ SPTI_INLINE void union_take_ray(const spti_union *lazy, const spti_call *call, s
                                 const union_vector *into) {
     const spt_wide second = spt_load(&spti_union_row(lazy, SPTI_ROW_SECOND)[at]);
     const spt_wide nearest = spt_load(&spti_union_row(lazy, SPTI_ROW_NEAREST)[at]);
-    SPTI_ALIGNED(64) float number[SPT_LANES];
-    for (unsigned lane = 0; lane < SPT_LANES; ++lane) number[lane] = (float)(at + lane);
-    union_put(into, SPTI_INDEX, spt_load(number));
+    union_put(into, SPTI_INDEX, compact_numbers(at));
     union_put(into, SPTI_STOP, spt_min(second, nearest));
     union_put(into, SPTI_EPSILON, spt_load(&spti_union_row(lazy, SPTI_ROW_EPSILON)[at]));
-    union_put(into, SPTI_PATH, spt_load(&spti_union_row(lazy, SPTI_ROW_PATH)[at]));
+    if (!call->one_origin) {
+        union_put(into, SPTI_PATH, spt_load(&spti_union_row(lazy, SPTI_ROW_PATH)[at]));
+    }
     union_put(into, SPTI_SPENT, spt_load(&spti_union_row(lazy, SPTI_ROW_SPENT)[at]));
     if (call->wants & SPTI_WANT_SLOPE) {
         union_put(into, SPTI_STEEPEST, spt_load(&spti_union_row(lazy, SPTI_ROW_STEEPEST)[at]));

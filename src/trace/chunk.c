@@ -14,8 +14,14 @@ static void load_column(spti_chunk *chunk, int array, const spt_column *column, 
     float *const to = chunk->array[array];
     const char *base = column->first;
     if (base != NULL) base += (ptrdiff_t)first * column->stride;
-    if (base == NULL) {
-        for (size_t slot = 0; slot < count; ++slot) to[slot] = absent;
+    if (base == NULL || column->stride == 0) {
+        if (base != NULL) memcpy(&absent, base, sizeof absent);
+        /* To the end: it may not be moved. */
+        for (size_t slot = 0; slot < SPTI_ROOM; ++slot) to[slot] = absent;
+        return;
+    }
+    if (run && column->stride == sizeof *to) {
+        memcpy(to, base + (size_t)chunk->picked[0] * sizeof *to, count * sizeof *to);
     } else if (run) {
         const ptrdiff_t stride = column->stride;
         size_t slot = 0;
@@ -42,7 +48,7 @@ static void load_column(spti_chunk *chunk, int array, const spt_column *column, 
 static size_t pick(const spt_column *active, uint16_t *picked, size_t first, size_t window) {
     size_t count = 0;
     if (active->first == NULL) {
-        for (size_t i = 0; i < window; ++i) picked[i] = (uint16_t)i;
+        for (int i = 0; i < (int)window; ++i) picked[i] = (uint16_t)i;
         return window;
     }
     for (size_t i = 0; i < window; ++i) {
@@ -64,7 +70,7 @@ void spti_load_chunk(const spt_rays *rays, spti_chunk *chunk, size_t count, size
     load_column(chunk, SPTI_T, &rays->t_min, 0, count, first, run);
     load_column(chunk, SPTI_T_MAX, &rays->t_max, INFINITY, count, first, run);
     load_column(chunk, SPTI_PATH, &rays->path, 0, count, first, run);
-    for (size_t slot = 0; slot < SPT_BATCH; ++slot) chunk->array[SPTI_INDEX][slot] = (float)slot;
+    for (int slot = 0; slot < SPT_BATCH; ++slot) chunk->array[SPTI_INDEX][slot] = (float)slot;
 }
 
 void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
@@ -115,43 +121,51 @@ static SPTI_NOINLINE size_t set_brackets_aside(const spti_call *call, spti_chunk
     return remain;
 }
 
-/* Lists the rays of a group that a mask has. */
-static void list(spti_leavers *leavers, size_t group, unsigned mask, int outcome) {
-    size_t count = leavers->count;
-    for (unsigned bit; mask != 0; mask ^= 1u << bit) {
-        bit = spti_lowest_bit(mask);
-        leavers->slots[count] = (uint16_t)(group * SPTI_GROUP + bit);
-        leavers->outcomes[count++] = (unsigned char)outcome;
+/* How the listed rays ended. From three masks a group, one for each bit of an outcome's number, so
+ * that there is no branch a ray or an outcome. */
+static void name_outcomes(const spti_chunk *chunk, size_t count, spti_leavers *leavers) {
+    struct {
+        uint16_t ones, twos, fours;
+    } bits[SPTI_GROUPS];
+    unsigned others = 0;
+    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
+        const spti_fates *fates = &chunk->fates[group];
+        const unsigned hit = fates->hit, missed = fates->missed & ~hit;
+        const unsigned nonfinite = fates->nonfinite & ~(hit | missed);
+        const unsigned bad = fates->bad & ~(hit | missed | nonfinite);
+        const unsigned stopped = fates->stopped & ~(hit | missed | nonfinite | bad);
+        const unsigned limit = ~(hit | missed | nonfinite | bad | stopped);
+        others |= fates->finished & ~(hit | fates->bracketed);
+        bits[group].ones = (uint16_t)(hit | nonfinite | stopped);
+        bits[group].twos = (uint16_t)(limit | nonfinite);
+        bits[group].fours = (uint16_t)(bad | stopped);
     }
-    leavers->count = count;
+    if (!others) memset(leavers->outcomes, SPT_HIT, leavers->count);
+    for (size_t i = 0; others && i < leavers->count; ++i) {
+        const size_t group = leavers->slots[i] / SPTI_GROUP, bit = leavers->slots[i] % SPTI_GROUP;
+        const int one = bits[group].ones >> bit & 1, two = bits[group].twos >> bit & 1;
+        const int four = bits[group].fours >> bit & 1;
+        leavers->outcomes[i] = (unsigned char)(one + 2 * two + 4 * four);
+    }
 }
 
 /* Writes out the finished rays and closes the gaps; returns how many rays go on. Brackets are set
  * aside and counted. */
 static size_t empty_finished(const spti_call *call, spti_chunk *chunk, size_t count, size_t first,
                              uint32_t age, size_t *brackets) {
+    const spti_chunk_kernels *const kernels = &spti_chunk_kernels_of[call->isa];
     spti_leavers leavers;
     unsigned bracketed = 0;
-    leavers.count = 0;
+    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
+        bracketed |= chunk->fates[group].finished & (unsigned)chunk->fates[group].bracketed;
+    }
+    leavers.count = kernels->list(chunk, count, leavers.slots);
     leavers.age = age;
     leavers.steep = 0;
-    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
-        const spti_fates *fates = &chunk->fates[group];
-        const unsigned ended = fates->finished & ~(unsigned)fates->bracketed;
-        const unsigned hit = fates->hit & ended, missed = fates->missed & ended & ~hit;
-        const unsigned nonfinite = fates->nonfinite & ended, bad = fates->bad & ended;
-        const unsigned stopped = fates->stopped & ended & ~(hit | missed | nonfinite | bad);
-        bracketed |= fates->finished & fates->bracketed;
-        list(&leavers, group, hit, SPT_HIT);
-        list(&leavers, group, missed, SPT_MISS);
-        list(&leavers, group, nonfinite, SPT_NONFINITE);
-        list(&leavers, group, bad, SPT_BAD_RAY);
-        list(&leavers, group, stopped, SPTI_STOPPED);
-        list(&leavers, group, ended & ~(hit | missed | nonfinite | bad | stopped), SPT_LIMIT);
-    }
+    name_outcomes(chunk, count, &leavers);
     call->leave(call, chunk, &leavers, first);
     if (bracketed) return set_brackets_aside(call, chunk, count, age, brackets);
-    return spti_chunk_kernels_of[call->isa].compact(chunk, call->arrays, call->array_count, count);
+    return kernels->compact(chunk, call->arrays, call->array_count, count);
 }
 
 /* What the samples at t_min decide: on which side each ray is. */

@@ -30,6 +30,7 @@ typedef struct spti_call {
     unsigned wants;
     unsigned char arrays[SPTI_ARRAYS]; /* those that follow the rays in this call */
     size_t array_count;
+    int one_origin; /* all rays have one, and no path before: arrays that are the same throughout */
     spti_leave_fn *leave;
     const size_t *places; /* where the results of a ray go; NULL: to its own number */
     int32_t component;    /* what a hit is said to have hit */
@@ -68,7 +69,8 @@ static inline int spti_keeps_spent(const spti_call *call) {
     return (call->settings.flags & SPT_SKIP_START) != 0 || call->stop != NULL;
 }
 
-/* Settles what follows from a call's field, bound, settings, hits, statistics and stop. */
+/* Settles what follows from a call's field, bound, settings, hits, statistics, stop, and rays or
+ * one_origin. */
 void spti_call_settle(spti_call *call);
 
 /* Traces the rays first .. first + window - 1, window <= SPT_BATCH. */

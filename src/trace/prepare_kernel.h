@@ -19,6 +19,7 @@ SPTI_INLINE spt_mask prepare_finite(spt_wide a) {
 typedef struct prepare_rays {
     interval_ray ray;
     spt_wide t_min, t_max, path;
+    spt_wide power;   /* t in the ray's own unit = power * t of the caller */
     spt_wide largest; /* component of the direction */
     spt_mask good;
 } prepare_rays;
@@ -56,6 +57,7 @@ SPTI_INLINE spt_wide prepare_units(prepare_rays *rays) {
     const spt_wide power = spt_select(rays->good, interval_power(rays->largest), one);
     const spt_wide unit = spt_div(one, power);
     spt_wide square[3];
+    rays->power = power;
     for (int axis = 0; axis < 3; ++axis) {
         const spt_wide direction = spt_select(rays->good, ray->direction[axis], one);
         ray->origin[axis] = spt_select(rays->good, ray->origin[axis], zero);

@@ -83,12 +83,22 @@ static void settle_wants(spti_call *call) {
     if (hits->fallbacks.first != NULL || counted) call->wants |= SPTI_WANT_FALLBACKS;
 }
 
-/* The arrays that hold something in this call; the others are not moved. */
+/* Whether all rays have one origin, and no path before. */
+static int have_one_origin(const spt_rays *rays) {
+    return rays->origin[0].stride == 0 && rays->origin[1].stride == 0 &&
+           rays->origin[2].stride == 0 && rays->path.first == NULL;
+}
+
+/* The arrays that hold something in this call, and not the same throughout; the others are not
+ * moved. */
 static void settle_arrays(spti_call *call) {
     const spt_method *method = call->settings.method;
+    if (call->rays != NULL) call->one_origin = have_one_origin(call->rays);
     call->array_count = 0;
     for (int array = 0; array < SPTI_ARRAYS; ++array) {
         int held = 1;
+        if (array >= SPTI_ORIGIN && array < SPTI_ORIGIN + 3) held = !call->one_origin;
+        if (array == SPTI_PATH) held = !call->one_origin;
         if (array == SPTI_MEMORY) held = method->memory > 0;
         if (array == SPTI_PENDING_T) held = method->pending || method->memory > 1;
         if (array == SPTI_PENDING_VALUE) held = method->pending;
