@@ -168,9 +168,10 @@ $B/examples/scenes/%.o: examples/scenes/%.c $B/setup
 	$(Q)$(COMPILE) $(SCENE_MISSING) $(CFLAGS) $(KEEP) -c $< -o $@
 
 # Programs of one idea each; what they share is linked as far as they need it.
-PROGRAMS := one_ray batch_callback one_frame methods_compared progressive shadow_pass render
+PROGRAMS := one_ray batch_callback one_frame methods_compared progressive shadow_pass occlusion_pass \
+            render
 # Those that only say whether all is well when run without arguments.
-CHECKED := one_ray batch_callback one_frame methods_compared progressive shadow_pass
+CHECKED := one_ray batch_callback one_frame methods_compared progressive shadow_pass occlusion_pass
 SHARED_SOURCES := $(filter-out $(PROGRAMS:%=examples/%.c),$(wildcard examples/*.c))
 OIIO ?= $(shell pkg-config --exists OpenImageIO 2>/dev/null && \
           command -v $(firstword $(CXX)) >/dev/null 2>&1 && echo 1 || echo 0)
@@ -203,11 +204,12 @@ $(PROGRAMS:%=$B/%$(EXE)): $B/%$(EXE): $B/examples/%.o $B/examples/shared.a $(SCE
 demo: $B/render$(EXE)
 	$(RUN) $B/render$(EXE) --gallery $B/gallery
 
-gallery: $B/render$(EXE) $B/progressive$(EXE) $B/shadow_pass$(EXE)
+gallery: $(patsubst %,$B/%$(EXE),render progressive shadow_pass occlusion_pass)
 	$(RUN) $B/render$(EXE) --gallery $B/gallery --large
 	$(RUN) $B/progressive$(EXE) primitives $B/gallery/progressive_primitives.png
 	$(RUN) $B/progressive$(EXE) mandelbulb $B/gallery/progressive_mandelbulb.png
 	$(RUN) $B/shadow_pass$(EXE) $B/gallery/shadow_pass.png
+	$(RUN) $B/occlusion_pass$(EXE) $B/gallery/occlusion_pass.png
 
 # ---- Tests --------------------------------------------------------------------------------------
 

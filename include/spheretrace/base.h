@@ -37,7 +37,8 @@ extern "C" {
 #endif
 
 /* What a call says of its ARGUMENTS. What a ray meets is never a status but data in its hit.
- * With any status but SPT_OK nothing was written and no callback was called. */
+ * With any status but SPT_OK nothing was written and no callback was called; only a clock that
+ * stands still is found out by calling it, and the field. */
 typedef enum spt_status {
     SPT_OK = 0,
     SPT_BAD_ARGUMENT,     /* an argument outside its documented range */

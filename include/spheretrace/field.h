@@ -37,7 +37,7 @@ extern "C" {
  *   n         a multiple of 16, 16 <= n <= SPT_BATCH. No mask and no tail: points that stand only
  *             for padding repeat a real one, and their distances are not read
  *   x, y, z   64-byte aligned, finite, not overlapping; may be used as scratch space
- *   distance  64-byte aligned. +infinity is legal and means that nothing is here or beyond (as does
+ *   distance  64-byte aligned. +infinity is legal and means that no surface is anywhere (as does
  *             a value that divided by lipschitz exceeds FLT_MAX). NaN and -infinity end the ray
  *             with SPT_NONFINITE, and so does a value that is not written
  * May be called from every thread that traces, may itself trace, and may leave by longjmp or by a

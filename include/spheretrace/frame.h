@@ -8,6 +8,10 @@
  * 2018, section 4, with the step that makes it safe), and only then traces rays, from where their
  * cone stopped.
  *
+ * LAYOUTS of spt_settings inside spt_frame, spt_pass, spt_depth, spt_camera_ray and
+ * spt_frame_progress are frozen, as those of spt_ray and spt_hit are; new members go to the ends of
+ * structures that begin with their size.
+ *
  * THREADS. Tiles are independent: any number of threads may trace any tiles in any order, and the
  * results are the same bits. A spt_frame is a plain description: copy it for each thread and give
  * each copy a workspace (and statistics) of its own. */
@@ -32,16 +36,18 @@ typedef enum spt_camera_kind {
 
 /* A ray of a caller's camera. It comes preset: t_min 0, t_max +infinity, path 0, active. */
 typedef struct spt_camera_ray {
-    spt_ray ray; /* its direction must be of length 1 within 1e-5, or the ray goes without cones */
-    float path;  /* world length travelled before (spt_rays.path) */
+    spt_ray ray;    /* where a direction is not of length 1 within 1e-5, its block of 4x4 pixels
+                     * goes without cones and culling */
+    float path;     /* world length travelled before (spt_rays.path) */
     int32_t active; /* 0: no ray here; the pixel's results are left as they are */
 } spt_camera_ray;
 
 /* The rays through count (1 .. SPT_BATCH) points of the image: x[i] from 0 at the left edge to
- * frame.width at the right, y[i] from 0 at the top to frame.height at the bottom. Must answer the
- * same for the same point, from any thread. Secondary rays are traced by a camera, too: one whose
- * callback makes the shadow ray of a pixel from its hit gives a shadow pass, which can run at a
- * lower resolution, be interrupted and be resumed like any other. */
+ * frame.width at the right, y[i] from 0 at the top to frame.height at the bottom. Must answer
+ * the same for the same point, from any thread. Asked for whole chunks of 16x16 pixels, so also
+ * for points of the image outside of the frame's region. Secondary rays are traced by a camera,
+ * too: one whose callback makes the shadow ray of a pixel from its hit gives a shadow pass,
+ * which can run at a lower resolution, be interrupted and be resumed like any other. */
 typedef void spt_camera_fn(void *user, size_t count, const float *x, const float *y,
                            spt_camera_ray *rays);
 
@@ -122,7 +128,7 @@ typedef struct spt_pass {
  * six shares are printed with one missing). NULL for any other number. */
 SPT_API const spt_pass *spt_passes(size_t count);
 
-/* Called between tiles with how many are done; a result other than 0 ends the call. */
+/* Called after each tile with how many are done; a result other than 0 ends the call. */
 typedef int spt_progress_fn(void *user, size_t done, size_t total);
 
 /* Colours of count (1 .. SPT_BATCH) pixels of a pass: colours[i * channels + c]. rays and hits are
@@ -141,7 +147,8 @@ typedef struct spt_frame {
                                         * (right - left) + x - left */
     uint32_t flags;                    /* SPT_FRAME_*; default 0 */
     spt_column t_max;                  /* by pixel of the region, in t: rays end there too (a depth
-                                        * buffer, see spt_frame_t_of_depth()); absent: nowhere */
+                                        * buffer, see spt_frame_t_of_depth()); absent: no. Not in
+                                        * passes of lower resolution */
     const spt_pass *passes;            /* for spt_frame_advance(): the last must be of full size;
                                         * NULL: a single one */
     size_t pass_count;                 /* 1 .. 16 where passes is not NULL */
@@ -174,13 +181,14 @@ SPT_API size_t spt_frame_tiles(const spt_frame *frame);
 SPT_API spt_status spt_frame_area(const spt_frame *frame, size_t index, uint32_t area[4]);
 
 /* Traces one tile of the region. image: sinks for the whole region (spt_hits), of which only this
- * tile's pixels are written. Results are those of spt_scene_trace() for the same rays with t_min
- * where their cone stopped; evaluations are those of the ray itself, and the statistics count those
- * of cones apart. Returns SPT_BAD_ARGUMENT, with nothing written, for a bad frame, index or image,
- * SPT_BUFFER_TOO_SMALL for a workspace too small. */
+ * tile's pixels are written. Results are those of spt_scene_trace() for the same rays, but that
+ * each component is traced from where the cone along it stopped; evaluations are those of the ray
+ * itself, and the statistics count those of cones apart. Returns SPT_BAD_ARGUMENT, with nothing
+ * written, for a bad frame, index or image, or no workspace, SPT_BUFFER_TOO_SMALL for one too
+ * small. */
 SPT_API spt_status spt_frame_tile(const spt_frame *frame, size_t index, const spt_hits *image);
 
-/* Traces the tiles first .. first + count - 1, calling frame->progress between them. done receives
+/* Traces the tiles first .. first + count - 1, calling frame->progress after each. done receives
  * how many were traced, less than count if progress ended the call; it may be NULL. Status as
  * spt_frame_tile(). */
 SPT_API spt_status spt_frame_trace(const spt_frame *frame, size_t first, size_t count,
@@ -197,9 +205,9 @@ typedef struct spt_frame_progress {
     uint64_t evaluations; /* since the start, cones included */
 } spt_frame_progress;
 
-/* Bytes of state that spt_frame_advance() keeps for this frame between calls; 0 for a bad frame. The
- * calls work in the state, which points into itself: it must stay where it is. They do not use
- * frame->workspace. */
+/* Bytes of state that spt_frame_advance() keeps for this frame between calls; 0 for a bad frame.
+ * The calls work in the state, which points into itself: where it was moved they begin anew.
+ * They do not use frame->workspace. */
 SPT_API size_t spt_frame_state_size(const spt_frame *frame);
 
 /* Begins anew: before the first spt_frame_advance() with this state, and whenever the scene has
@@ -209,7 +217,9 @@ SPT_API spt_status spt_frame_restart(const spt_frame *frame, void *state, size_t
 
 /* Goes on with a progressive frame for about `evaluations` evaluations: it stops after the batch of
  * at most SPT_BATCH with which it has spent them, wherever the rays are, and a later call goes on
- * from there. The results of any division into calls have the same bits.
+ * from there; only a bracket that is closed, and starts that are skipped, go to their end. A chunk
+ * counts as 64 of them besides, so that an empty picture takes its time, too. The results of any
+ * division into calls have the same bits.
  *   image     sinks for the region, written by the last pass, each pixel once its chunk is
  *             finished; or NULL
  *   progress  receives how far it is, or NULL
@@ -223,8 +233,9 @@ SPT_API spt_status spt_frame_advance(const spt_frame *frame, void *state, size_t
                                      uint64_t evaluations, const spt_hits *image,
                                      spt_frame_progress *progress);
 
-/* The same for about `seconds` (>= 0) of the caller's clock: how many evaluations that is comes from
- * what those so far took. A clock that stands still over 2^16 evaluations gives SPT_UNSUPPORTED. */
+/* The same for about `seconds` (>= 0) of the caller's clock: how many evaluations that is comes
+ * from what those so far took. A clock that stands still over 2^16 evaluations gives
+ * SPT_UNSUPPORTED. */
 SPT_API spt_status spt_frame_advance_for(const spt_frame *frame, void *state, size_t state_size,
                                          double seconds, spt_clock_fn *clock, void *clock_user,
                                          const spt_hits *image, spt_frame_progress *progress);

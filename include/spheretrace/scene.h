@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT
  *
- * Scenes: the union of many fields, traced lazily. A ray asks a component only where no other can
- * be nearer, so that 41 objects cost little more than the two or three that the ray meets.
+ * Scenes: the union of many fields, traced lazily. A ray asks a component only where no other
+ * can be nearer, so that 41 objects cost little more than the two or three that the ray meets.
  * Smooth unions are no unions of surfaces: blend them inside one field. Cameras are in frame.h.
  *
- * WHAT COMES BACK is the first surface on the ray, as if every component had been traced by itself
- * with spt_trace() and the nearest hit taken: t, residual and outcome have the same bits, as long
- * as the fields keep their Lipschitz promises (of one that does not, what it hides behind its true
- * distance may be passed over). A component whose field has SPT_FIELD_CONVEX is traced with
- * spt_convex(), the others with settings.method. So nothing that is left out because it cannot be met (by a bound, by a tile's
- * list) changes a result, and neither do a ray's neighbours. */
+ * WHAT COMES BACK is the first surface on the ray, as if every component had been traced by
+ * itself with spt_trace() and the nearest hit taken: t, residual and outcome have the same bits,
+ * as long as the fields keep their Lipschitz promises (of one that does not, what it hides
+ * behind its true distance may be passed over). A component whose field has SPT_FIELD_CONVEX is
+ * traced with spt_convex(), the others with settings.method. So nothing that is left out because
+ * it cannot be met (by a bound, by a tile's list) changes a result, and neither do a ray's
+ * neighbours. */
 #ifndef SPHERETRACE_SCENE_H
 #define SPHERETRACE_SCENE_H
 
@@ -62,7 +63,7 @@ static inline int32_t spt_scene_material(const spt_scene *scene, int32_t compone
 }
 
 /* The bytes of workspace that a call of spt_scene_trace() needs for this scene: about 42 KiB a
- * component and 160 KiB. 0 where the scene or the settings break their rules. */
+ * component and 140 KiB. 0 where the scene or the settings break their rules. */
 SPT_API size_t spt_scene_workspace(const spt_scene *scene, const spt_settings *settings);
 
 /* Traces count rays against the union.

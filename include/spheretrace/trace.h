@@ -205,7 +205,8 @@ SPT_API const char *spt_method_name(const spt_method *method);
 enum {
     /* The ray starts on a surface that is not meant (a secondary ray): steps of one tolerance
      * until |f| / lipschitz reaches the tolerance, and only then starts to trace. What lies in the
-     * skipped stretch is not seen. Each step is an evaluation. */
+     * skipped stretch is not seen. Each step is an evaluation. A ray that comes to its field's
+     * bound from more than a tolerance away begins there in the open, and skips nothing. */
     SPT_SKIP_START = 1u << 0,
     /* A ray whose first sample is inside ends there at once: SPT_HIT with SPT_FLAG_INSIDE.
      * Otherwise it is traced to the way out. */

@@ -153,6 +153,7 @@ static void begin_pass(spti_state *state) {
         level->grid.step_x < level->grid.step_y ? level->grid.step_x : level->grid.step_y;
     settings.budget = level->budget;
     settings.pixel_radius *= step;
+    if (!(settings.pixel_radius <= FLT_MAX)) settings.pixel_radius = FLT_MAX;
     /* Every result, whoever asks for it in a later call. */
     state->wanted = spt_hits_of(&state->anything);
     spti_desk_begin(state->desk, &state->job, &settings, &level->grid, &state->wanted,
@@ -175,6 +176,10 @@ static void count_cones(spti_state *state) {
     desk->cone_evaluations = desk->kept = desk->culled = 0;
 }
 
+/* What a chunk takes from the allowance beside its evaluations, so that a call has an end where
+ * nothing needs to be asked: about what the work of 256 pixels costs in cheap evaluations. */
+enum { PRICE_OF_A_CHUNK = 64 };
+
 /* Goes on with the chunk at work, or the next one. */
 static void advance_chunk(spti_state *state, int64_t *allowance, const spt_hits *image) {
     spti_union *const lazy = &state->desk->lazy;
@@ -182,8 +187,8 @@ static void advance_chunk(spti_state *state, int64_t *allowance, const spt_hits 
     if (state->stage == STAGE_NEXT) open_chunk(state);
     lazy->allowance = before;
     const int ended = work_on(state);
-    *allowance = lazy->allowance;
-    state->evaluations += (uint64_t)(before - *allowance);
+    state->evaluations += (uint64_t)(before - lazy->allowance);
+    *allowance = lazy->allowance - (state->stage == STAGE_DONE ? PRICE_OF_A_CHUNK : 0);
     count_cones(state);
     if (!ended) return;
     if (state->stage == STAGE_DONE) close_chunk(state, image);

@@ -19,7 +19,8 @@ static float at_least(float a, float b) {
     return a < b ? b : a;
 }
 
-/* How far the corners of rectangles are from their middles at most; in an array of x, y or z each. */
+/* How far the corners of rectangles are from their middles at most; in an array of x, y or z
+ * each. */
 static void farthest_corners(const float (*arrays)[SPT_BATCH], float distance[SPTI_BUNDLES]) {
     for (size_t i = 0; i < SPTI_BUNDLES; ++i) distance[i] = 0.0f;
     for (size_t corner = SPTI_BUNDLES; corner <= 4 * SPTI_BUNDLES; corner += SPTI_BUNDLES) {
@@ -46,6 +47,7 @@ static void finish(spti_bundles *bundles) {
             reach = at_least(fabsf(bundles->origin[axis][i]), reach);
         }
         bundles->floor_at_0[i] = SPTI_FLOOR * reach;
+        if (!(reach < FLT_MAX / 2)) bundles->usable &= ~(1u << i); /* positions stay finite */
         if (!(bundles->usable >> i & 1)) continue;
         bundles->widest_alpha = at_least(bundles->alpha[i], bundles->widest_alpha);
         bundles->widest_beta = at_least(bundles->beta[i], bundles->widest_beta);
@@ -63,6 +65,17 @@ static void set_middle(spti_bundles *bundles, size_t i, const spti_ray_arrays *r
         bundles->origin[axis][i] = rays->origin[axis][j];
         bundles->direction[axis][i] = rays->direction[axis][j];
     }
+}
+
+/* What rounding the origins of an orthographic camera can add to their distance. */
+static float origin_rounding(const spti_view *view, const spti_bundles *bundles, size_t i) {
+    float reach = 0.0f;
+    if (view->kind == SPT_CAMERA_PINHOLE) return 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        reach = at_least(fabsf(bundles->origin[axis][i]), reach);
+        reach = at_least(fabsf(view->eye[axis]), reach);
+    }
+    return reach * DIRECTION_ROUNDING;
 }
 
 void spti_bundles_of(const spti_view *view, spti_isa isa, unsigned present,
@@ -93,7 +106,7 @@ void spti_bundles_of(const spti_view *view, spti_isa isa, unsigned present,
     for (size_t i = 0; i < SPTI_BUNDLES; ++i) {
         set_middle(bundles, i, &rays, i);
         bundles->alpha[i] = alpha[i] + DIRECTION_ROUNDING;
-        bundles->beta[i] = beta[i] + beta[i] * DIRECTION_ROUNDING;
+        bundles->beta[i] = beta[i] + origin_rounding(view, bundles, i);
         bundles->t_min[i] = view->t_min;
         bundles->t_max[i] = view->t_max;
         if ((present >> i & 1) && bundles->alpha[i] < WIDEST_ALPHA && beta[i] < FLT_MAX) {
@@ -202,16 +215,16 @@ static spt_bound grown_bound(const spti_bundles *bundles, const spt_bound *bound
     const float farthest = sqrtf(square) + bundles->widest_beta;
     const float width = (bundles->widest_beta + bundles->widest_alpha * farthest) * 1.00001f;
     grown.radius += width;
-    for (int axis = 0; axis < 3; ++axis) {
-        grown.low[axis] -= width;
-        grown.high[axis] += width;
+    for (int axis = 0; axis < 3; ++axis) { /* and what these sums are rounded by */
+        grown.low[axis] -= width + SPTI_FLOOR * (fabsf(grown.low[axis]) + width);
+        grown.high[axis] += width + SPTI_FLOOR * (fabsf(grown.high[axis]) + width);
     }
     return grown;
 }
 
-/* Up to where rays are traced at all, as their preparation has it. */
+/* No ray of a length near 1 is traced beyond (prepare_kernel.h). */
 static float last_t(float t_max) {
-    return t_max < FLT_MAX / 8 ? t_max : FLT_MAX / 8;
+    return t_max < FLT_MAX / 4 ? t_max : FLT_MAX / 4;
 }
 
 /* Where each bundle is to begin: at t, and not before its component's bound. */

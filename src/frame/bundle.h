@@ -83,9 +83,9 @@ void spti_bundles_of(const spti_view *view, spti_isa isa, unsigned present,
  * there are 256. */
 void spti_bundles_of_rays(const spt_camera_ray *rays, spti_bundles *bundles);
 
-/* Sends the usable bundles ahead along a component, by at most so many steps: t[i] is where its rays
- * are free of it up to, at least what it was; +infinity: it cannot be met. Returns the evaluations
- * spent; *more: whether some bundles could go on. */
+/* Sends the usable bundles ahead along a component, by at most so many steps: t[i] is where its
+ * rays are free of it up to, at least what it was; +infinity: it cannot be met. Returns the
+ * evaluations spent; *more: whether some bundles could go on. */
 uint64_t spti_bundles_walk(const spti_bundles *bundles, const spti_call *call, uint32_t steps,
                            float t[SPTI_BUNDLES], int *more);
 

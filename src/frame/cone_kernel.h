@@ -63,6 +63,7 @@ SPTI_INLINE void cone_enter(const spti_bundles *bundles, const spt_bound *grown,
  * point is. */
 SPTI_INLINE void cone_points(const spti_bundles *bundles, unsigned walking, spti_walk *walk) {
     const spt_bound *const bound = walk->bound;
+    const spt_wide far = spt_splat(0x1p62f); /* less is safe, and its square does not overflow */
     for (size_t at = 0; at < SPTI_BUNDLES; at += SPT_LANES) {
         const spt_mask walks = spt_less(spt_splat(0.0f), spt_load(&walk->walks[at]));
         const spt_wide t = spt_select(walks, spt_load(&walk->t[at]), spt_splat(0.0f));
@@ -75,7 +76,7 @@ SPTI_INLINE void cone_points(const spti_bundles *bundles, unsigned walking, spti
             for (int axis = 0; axis < 3; ++axis) {
                 const spt_wide within = spt_min(spt_max(point[axis], spt_splat(bound->low[axis])),
                                                 spt_splat(bound->high[axis]));
-                const spt_wide apart = spt_sub(point[axis], within);
+                const spt_wide apart = spt_min(spt_abs(spt_sub(point[axis], within)), far);
                 gap = spt_add(gap, spt_mul(apart, apart));
                 point[axis] = within;
             }
@@ -88,7 +89,8 @@ SPTI_INLINE void cone_points(const spti_bundles *bundles, unsigned walking, spti
             const spt_wide radius = spt_splat(bound->radius);
             const spt_wide length = spt_max(spt_sqrt(square), radius);
             const spt_mask outside = spt_less(radius, length);
-            const spt_wide share = spt_div(radius, length), apart = spt_sub(length, radius);
+            const spt_wide share = spt_div(radius, length);
+            const spt_wide apart = spt_min(spt_sub(length, radius), far);
             for (int axis = 0; axis < 3; ++axis) {
                 const spt_wide pulled =
                     spt_add(spt_splat(bound->center[axis]), spt_mul(share, arm[axis]));
@@ -121,7 +123,7 @@ SPTI_INLINE spt_wide cone_distance(const spti_walk *walk, size_t at) {
     const spt_wide zero = spt_splat(0.0f), gap = spt_load(&walk->gap[at]);
     const spt_wide asked =
         spt_mul(spt_load(&walk->distance[at]), spt_splat(walk->inverse_lipschitz));
-    const spt_wide beyond = spt_max(asked, zero);
+    const spt_wide beyond = spt_min(spt_max(asked, zero), spt_splat(0x1p62f));
     const spt_wide slant = spt_sqrt(spt_add(gap, spt_mul(beyond, beyond)));
     /* In this order NaN stays, and stops the bundle. */
     return spt_min(spt_splat(FLT_MAX), spt_select(spt_less(zero, gap), slant, asked));

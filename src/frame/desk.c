@@ -84,7 +84,7 @@ void spti_desk_begin(spti_desk *desk, const spti_job *job, const spt_settings *s
     spti_union_clear(lazy);
 }
 
-static spti_call *call_of(spti_desk *desk, uint32_t component) {
+spti_call *spti_desk_call(spti_desk *desk, uint32_t component) {
     spti_call *const call = &desk->calls[component];
     if (!desk->settled[component]) {
         spti_scene_call(call, &desk->lazy, &desk->job->scene, component, &desk->settings,
@@ -95,10 +95,6 @@ static spti_call *call_of(spti_desk *desk, uint32_t component) {
 }
 
 /* ---- Bundles -------------------------------------------------------------------------------- */
-
-static int has_rays_of_its_own(const spti_desk *desk) {
-    return desk->job->view.kind == SPT_CAMERA_RAYS;
-}
 
 /* A rectangle of pixels of the grid, cut with it, in pixels of the full image. */
 static void image_rectangle(const spti_grid *grid, uint32_t x, uint32_t y, uint32_t side,
@@ -133,12 +129,12 @@ static void squares(const spti_desk *desk, uint32_t x, uint32_t y, uint32_t side
     }
 }
 
-/* Sends the bundles ahead along a component by one walk, or where they do not walk, up to its bound.
- * Returns whether they are there; *met: those that may meet it. */
+/* Sends the bundles ahead along a component by one walk, or where they do not walk, up to its
+ * bound. Returns whether they are there; *met: those that may meet it. */
 static int send(spti_desk *desk, uint32_t component, int walk, float t[SPTI_BUNDLES],
                 unsigned *met) {
     const spti_bundles *const bundles = &desk->bundles;
-    const spti_call *const call = call_of(desk, component);
+    const spti_call *const call = spti_desk_call(desk, component);
     const int culls = !(desk->job->frame.flags & SPT_FRAME_NO_CULLING);
     float before[SPTI_BUNDLES];
     int more = 0;
@@ -170,7 +166,7 @@ void spti_desk_tile(spti_desk *desk, uint32_t column, uint32_t row) {
     desk->tile_listed = 0;
     desk->next = 0;
     desk->walks = 0;
-    if (has_rays_of_its_own(desk)) return;
+    if (spti_desk_owns_rays(desk)) return;
     squares(desk, column * SPT_TILE, row * SPT_TILE, SPTI_CHUNK_SIDE, &desk->bundles);
 }
 
@@ -180,7 +176,7 @@ int spti_desk_tile_cones(spti_desk *desk, int walk) {
         const uint32_t component = (uint32_t)desk->next;
         float *const t = desk->tile_t + desk->next * SPTI_BUNDLES;
         unsigned met = 1;
-        int there = has_rays_of_its_own(desk);
+        int there = spti_desk_owns_rays(desk);
         for (size_t i = 0; desk->walks == 0 && i < SPTI_BUNDLES; ++i) t[i] = 0.0f;
         for (int turn = 0; !there && turn < MOST_WALKS; ++turn) {
             if (desk->lazy.allowance <= 0) return 0;
@@ -193,121 +189,7 @@ int spti_desk_tile_cones(spti_desk *desk, int walk) {
     return 1;
 }
 
-/* ---- Chunks --------------------------------------------------------------------------------- */
-
-static void set_column(spt_column *column, const void *first, ptrdiff_t stride) {
-    column->first = first;
-    column->stride = stride;
-}
-
-/* The points of a chunk's rays, and which are traced. Returns 0 where none is. */
-static int place_rays(spti_desk *desk) {
-    const spti_grid *const grid = &desk->grid;
-    const spti_rectangle *const part = &grid->part;
-    const uint32_t side = SPTI_CHUNK_SIDE;
-    float across[SPTI_CHUNK_SIDE], down[SPTI_CHUNK_SIDE];
-    int any = 0;
-    desk->all = desk->left >= part->x_0 && desk->left + side <= part->x_1 &&
-                desk->top >= part->y_0 && desk->top + side <= part->y_1;
-    for (uint32_t i = 0; i < side; ++i) {
-        const uint32_t x = desk->left + i < grid->width ? desk->left + i : grid->width - 1;
-        const uint32_t y = desk->top + i < grid->height ? desk->top + i : grid->height - 1;
-        across[i] = ((float)x + 0.5f) * grid->step_x;
-        down[i] = ((float)y + 0.5f) * grid->step_y;
-    }
-    for (size_t i = 0; i < SPT_BATCH; i += 4) { /* a row of a block */
-        const size_t left = i / 16 % 4 * 4, row = i / 64 * 4 + i / 4 % 4;
-        const size_t place = spti_desk_place_of(desk, i);
-        for (size_t k = 0; k < 4; ++k) {
-            desk->x[i + k] = across[left + k];
-            desk->y[i + k] = down[row];
-            desk->own_places[i + k] = place + k;
-        }
-    }
-    if (desk->all) return 1;
-    for (size_t i = 0; i < SPT_BATCH; ++i) {
-        const uint32_t column = spti_desk_column(desk, i), row = spti_desk_row(desk, i);
-        const int traced =
-            column >= part->x_0 && column < part->x_1 && row >= part->y_0 && row < part->y_1;
-        desk->active[i] = traced ? -1 : 0;
-        any |= traced;
-    }
-    return any;
-}
-
-/* The rays of a caller's camera. Returns 0 where none is active. */
-static int ask_camera(spti_desk *desk) {
-    int any = 0;
-    spti_view_rays(&desk->job->view, &desk->job->camera, desk->isa, SPT_BATCH, desk->x, desk->y,
-                   desk->camera_rays);
-    for (size_t i = 0; i < SPT_BATCH; ++i) {
-        spt_camera_ray *const ray = &desk->camera_rays[i];
-        if (!desk->all && desk->active[i] == 0) ray->active = 0;
-        desk->active[i] = ray->active;
-        any |= ray->active;
-        for (int axis = 0; axis < 3; ++axis) {
-            desk->rays.origin[axis][i] = ray->ray.origin[axis];
-            desk->rays.direction[axis][i] = ray->ray.direction[axis];
-        }
-        desk->t_min[i] = ray->ray.t_min;
-        desk->t_max[i] = ray->ray.t_max;
-        desk->path[i] = ray->path;
-    }
-    desk->all = 0;
-    set_column(&desk->columns.t_min, desk->t_min, 4);
-    set_column(&desk->columns.t_max, desk->t_max, 4);
-    set_column(&desk->columns.path, desk->path, 4);
-    return any;
-}
-
-/* Cuts rays of the full image off at the caller's depths. */
-static void cut_at_depths(spti_desk *desk) {
-    const spt_frame *const frame = &desk->job->frame;
-    const spt_column *const depths = &frame->t_max;
-    if (depths->first == NULL || desk->grid.width != frame->width ||
-        desk->grid.height != frame->height) {
-        return;
-    }
-    for (size_t i = 0; i < SPT_BATCH; ++i) {
-        float t;
-        const int own = has_rays_of_its_own(desk);
-        const float before = own ? desk->t_max[i] : desk->job->view.t_max;
-        desk->t_max[i] = before;
-        if (!desk->all && desk->active[i] == 0) continue;
-        memcpy(&t, (const char *)depths->first + (ptrdiff_t)desk->own_places[i] * depths->stride,
-               sizeof t);
-        if (t < before || !(t <= INFINITY)) desk->t_max[i] = t; /* NaN stays, a bad ray */
-    }
-    set_column(&desk->columns.t_max, desk->t_max, 4);
-}
-
-/* The rays of a chunk, but for what fill_rays() does. Returns 0 where none is traced. */
-static int make_rays(spti_desk *desk) {
-    const spti_view *const view = &desk->job->view;
-    const ptrdiff_t pinhole = view->kind == SPT_CAMERA_PINHOLE ? 0 : 4; /* all from the eye */
-    if (!place_rays(desk)) return 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        set_column(&desk->columns.origin[axis], desk->rays.origin[axis], pinhole);
-        set_column(&desk->columns.direction[axis], desk->rays.direction[axis], 4);
-    }
-    if (has_rays_of_its_own(desk)) {
-        if (!ask_camera(desk)) return 0;
-    } else {
-        set_column(&desk->columns.t_min, &view->t_min, 0);
-        set_column(&desk->columns.t_max, &view->t_max, 0);
-        set_column(&desk->columns.path, NULL, 0);
-    }
-    set_column(&desk->columns.active, desk->all ? NULL : desk->active, 4);
-    cut_at_depths(desk);
-    return 1;
-}
-
-/* The origins and directions of our own cameras: only of chunks that may meet something. */
-static void fill_rays(spti_desk *desk) {
-    if (has_rays_of_its_own(desk)) return;
-    spti_cone_kernels_of[desk->isa]->rays(&desk->job->view, SPT_BATCH, desk->x, desk->y,
-                                          &desk->rays);
-}
+/* ---- Chunks ---------------------------------------------------------------------------------- */
 
 int spti_desk_chunk(spti_desk *desk, size_t index) {
     const uint32_t side = SPTI_CHUNK_SIDE;
@@ -315,8 +197,8 @@ int spti_desk_chunk(spti_desk *desk, size_t index) {
     desk->left = desk->tile_column * SPT_TILE + (uint32_t)(index % CHUNKS_A_SIDE) * side;
     desk->top = desk->tile_row * SPT_TILE + (uint32_t)(index / CHUNKS_A_SIDE) * side;
     if (desk->left >= desk->grid.width || desk->top >= desk->grid.height) return 0;
-    if (!make_rays(desk)) return 0;
-    if (has_rays_of_its_own(desk)) {
+    if (!spti_desk_make_rays(desk)) return 0;
+    if (spti_desk_owns_rays(desk)) {
         spti_bundles_of_rays(desk->camera_rays, &desk->bundles);
     } else {
         squares(desk, desk->left, desk->top, BLOCK_SIDE, &desk->bundles);
@@ -342,57 +224,6 @@ int spti_desk_chunk_cones(spti_desk *desk, int walk) {
         if (met) desk->chunk_list[desk->chunk_listed++] = component;
     }
     return 1;
-}
-
-/* ---- Pools ---------------------------------------------------------------------------------- */
-
-/* Puts the chunk's rays into the pool, with how far its blocks came along each component. */
-static void pool_chunk(spti_desk *desk) {
-    const size_t chunk = desk->pooled++, row = desk->most_pooled * SPTI_BUNDLES;
-    for (size_t i = 0; i < desk->chunk_listed; ++i) {
-        const uint32_t component = desk->chunk_list[i];
-        float *const t = desk->pool_t + component * row;
-        if (!desk->in_pool[component]) {
-            for (size_t k = 0; k < row; ++k) t[k] = INFINITY;
-            desk->in_pool[component] = 1;
-        }
-        memcpy(t + chunk * SPTI_BUNDLES, desk->block_t + (size_t)component * SPTI_BUNDLES,
-               SPTI_BUNDLES * sizeof *t);
-    }
-    memcpy(desk->places + chunk * SPT_BATCH, desk->own_places, sizeof desk->own_places);
-    fill_rays(desk);
-    spti_union_add(&desk->lazy, &desk->columns, 0, SPT_BATCH);
-}
-
-/* Lists the pool's components, and where its rays start along each of them. */
-static void list_pool(spti_desk *desk) {
-    const size_t row = desk->most_pooled * SPTI_BUNDLES;
-    size_t listed = 0;
-    for (size_t i = 0; i < desk->tile_listed; ++i) {
-        const uint32_t component = desk->tile_list[i];
-        const float *const t = desk->pool_t + component * row;
-        float *const starts = desk->starts + listed * desk->lazy.pool;
-        if (!desk->in_pool[component]) continue;
-        for (size_t block = 0; block < desk->pooled * SPTI_BUNDLES; ++block) {
-            for (size_t k = 0; k < SPTI_GROUP; ++k) starts[block * SPTI_GROUP + k] = t[block];
-        }
-        desk->list[listed++] = component;
-        desk->in_pool[component] = 0;
-    }
-    desk->lazy.listed = listed;
-}
-
-void spti_desk_open(spti_desk *desk, const float *starts) {
-    desk->pooled = 0;
-    spti_union_clear(&desk->lazy);
-    pool_chunk(desk);
-    list_pool(desk);
-    for (size_t place = 0; starts != NULL && place < desk->lazy.listed; ++place) {
-        float *const t = desk->starts + place * desk->lazy.pool;
-        for (size_t i = 0; i < SPT_BATCH; ++i) t[i] = starts[i] > t[i] ? starts[i] : t[i];
-    }
-    desk->next = 0;
-    desk->walks = 0;
 }
 
 /* A block's pixels as bundles. The least t of the components is where a pixel is free of all. */
@@ -423,80 +254,6 @@ int spti_desk_pixel_cones(spti_desk *desk, float *pixel_t) {
         for (size_t i = 0; i < SPTI_BUNDLES; ++i) least[i] = t[i] < least[i] ? t[i] : least[i];
     }
     return 1;
-}
-
-void spti_desk_enter(spti_desk *desk) {
-    spti_union_enter(&desk->lazy, desk->starts);
-}
-
-void spti_desk_flush(spti_desk *desk, const spt_hits *image) {
-    if (desk->pooled == 0) return;
-    list_pool(desk);
-    spti_union_enter(&desk->lazy, desk->starts);
-    spti_union_run(&desk->lazy);
-    spti_desk_write(desk, image);
-    desk->pooled = 0;
-    spti_union_clear(&desk->lazy);
-}
-
-/* ---- Tracing -------------------------------------------------------------------------------- */
-
-/* A chunk that can meet nothing. */
-static void miss_all(spti_desk *desk, const spt_hits *image) {
-    const int32_t *const active = desk->all ? NULL : desk->active;
-    uint64_t rays = 0;
-    spti_write_misses(SPT_BATCH, active, desk->own_places, image);
-    for (size_t i = 0; i < SPT_BATCH; ++i) rays += active == NULL || active[i] != 0;
-    if (desk->statistics != NULL) {
-        desk->statistics->rays += rays;
-        desk->statistics->outcomes[SPT_MISS] += rays;
-    }
-}
-
-/* A chunk that can meet one component only needs no union: it is traced as spt_trace() does. */
-static void trace_alone(spti_desk *desk, const spt_hits *image) {
-    const uint32_t component = desk->chunk_list[0];
-    const float *const t = desk->block_t + (size_t)component * SPTI_BUNDLES;
-    spt_rays columns = desk->columns;
-    spti_call call = *call_of(desk, component);
-    const int owns = has_rays_of_its_own(desk);
-    fill_rays(desk);
-    for (size_t block = 0; block < SPTI_BUNDLES; ++block) {
-        const float start = t[block] < FLT_MAX ? t[block] : FLT_MAX;
-        float *const t_min = desk->t_min + block * SPTI_GROUP;
-        for (size_t i = 0; i < SPTI_GROUP; ++i) {
-            const float own = owns ? t_min[i] : desk->job->view.t_min;
-            t_min[i] = own >= 0.0f && start > own ? start : own; /* a bad ray stays one */
-        }
-    }
-    set_column(&columns.t_min, desk->t_min, 4);
-    call.rays = &columns;
-    call.hits = image;
-    call.places = desk->own_places;
-    call.component = (int32_t)component;
-    call.leave = spti_write_hits;
-    call.stop = NULL;
-    call.allowance = NULL;
-    spti_call_settle(&call);
-    call.field.lipschitz = 1.0f; /* slopes are counted relative to it */
-    spti_trace_chunk(&call, &desk->lazy.chunk, 0, SPT_BATCH);
-}
-
-void spti_desk_trace(spti_desk *desk, const spt_hits *image) {
-    const int may_be_bad = has_rays_of_its_own(desk) || desk->job->frame.t_max.first != NULL;
-    if (desk->chunk_listed == 0 && !may_be_bad) {
-        miss_all(desk, image);
-    } else if (desk->chunk_listed == 1 && desk->lazy.zone_count == 0) {
-        trace_alone(desk, image);
-    } else {
-        pool_chunk(desk);
-        if (desk->pooled == desk->most_pooled) spti_desk_flush(desk, image);
-    }
-}
-
-void spti_desk_write(const spti_desk *desk, const spt_hits *image) {
-    if (image != NULL) spti_union_write(&desk->lazy, image, 0, desk->places);
-    if (desk->statistics != NULL) spti_union_count(&desk->lazy, desk->statistics);
 }
 
 void spti_desk_adopt(spti_desk *desk, spt_statistics *statistics) {

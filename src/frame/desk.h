@@ -56,6 +56,16 @@ typedef struct spti_desk {
     size_t own_places[SPT_BATCH]; /* in an image of the part, if active */
 } spti_desk;
 
+/* Whether the rays are a caller's. */
+static inline int spti_desk_owns_rays(const spti_desk *desk) {
+    return desk->job->view.kind == SPT_CAMERA_RAYS;
+}
+
+static inline void spti_set_column(spt_column *column, const void *first, ptrdiff_t stride) {
+    column->first = first;
+    column->stride = stride;
+}
+
 /* Bytes for a desk of so many components; 0: more than size_t holds. */
 size_t spti_desk_size(size_t components);
 
@@ -72,8 +82,8 @@ void spti_desk_begin(spti_desk *desk, const spti_job *job, const spt_settings *s
 void spti_desk_tile(spti_desk *desk, uint32_t column, uint32_t row);
 int spti_desk_tile_cones(spti_desk *desk, int walk);
 
-/* Turns to chunk number `index` of the tile; returns 0 where none of its pixels is to be traced. And
- * its cones, likewise. */
+/* Turns to chunk number `index` of the tile; returns 0 where none of its pixels is to be traced.
+ * And its cones, likewise. */
 int spti_desk_chunk(spti_desk *desk, size_t index);
 int spti_desk_chunk_cones(spti_desk *desk, int walk);
 
@@ -83,9 +93,9 @@ void spti_desk_trace(spti_desk *desk, const spt_hits *image);
 /* by now. */
 void spti_desk_flush(spti_desk *desk, const spt_hits *image);
 
-/* Or alone, and step by step: its rays are pooled (starts: where they are known to be free up to, by
- * ray, or NULL); a cone may be sent ahead for each pixel, likewise, and its t put into pixel_t; and
- * desk->lazy has what it needs to trace them. */
+/* Or alone, and step by step: its rays are pooled (starts: where they are known to be free up
+ * to, by ray, or NULL); a cone may be sent ahead for each pixel, likewise, and its t put into
+ * pixel_t; and desk->lazy has what it needs to trace them. */
 void spti_desk_open(spti_desk *desk, const float *starts);
 int spti_desk_pixel_cones(spti_desk *desk, float *pixel_t);
 void spti_desk_enter(spti_desk *desk);
@@ -99,6 +109,14 @@ static inline float spti_desk_limit(const spt_column *limits, size_t ray) {
     memcpy(&t, (const char *)limits->first + (ptrdiff_t)ray * limits->stride, sizeof t);
     return t;
 }
+
+/* The call of a component, made when first asked for. */
+spti_call *spti_desk_call(spti_desk *desk, uint32_t component);
+
+/* The rays of the chunk, but for what spti_desk_fill_rays() does, which only those need that may
+ * meet something. Returns 0 where none of its pixels is traced. */
+int spti_desk_make_rays(spti_desk *desk);
+void spti_desk_fill_rays(spti_desk *desk);
 
 /* Counts elsewhere from now on. */
 void spti_desk_adopt(spti_desk *desk, spt_statistics *statistics);

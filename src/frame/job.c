@@ -32,6 +32,14 @@ static int passes_are_good(const spt_frame *frame) {
     return last->numerator == last->denominator;
 }
 
+/* The tiles that the frame's region touches. */
+static spti_rectangle tiles_of(const spt_frame *frame) {
+    const spti_rectangle tiles = {frame->left / SPT_TILE, frame->top / SPT_TILE,
+                                  (frame->right - 1) / SPT_TILE + 1,
+                                  (frame->bottom - 1) / SPT_TILE + 1};
+    return tiles;
+}
+
 int spti_job_of(spti_job *job, const spt_frame *from) {
     spt_frame *const frame = &job->frame;
     spt_settings chosen;
@@ -60,7 +68,8 @@ int spti_job_of(spti_job *job, const spt_frame *from) {
         return 0;
     }
     job->view = spti_view_of(&job->camera, frame->width, frame->height);
-    return 1;
+    const spti_rectangle tiles = tiles_of(frame);
+    return (uint64_t)(tiles.x_1 - tiles.x_0) * (tiles.y_1 - tiles.y_0) <= SIZE_MAX;
 }
 
 spti_grid spti_full_grid(const spti_job *job) {
@@ -117,17 +126,9 @@ spt_status spt_frame_init(spt_frame *frame, const spt_scene *scene, const spt_ca
 
 /* ---- Tiles ---------------------------------------------------------------------------------- */
 
-/* The tiles that the frame's region touches. */
-static spti_rectangle tiles_of(const spt_frame *frame) {
-    const spti_rectangle tiles = {frame->left / SPT_TILE, frame->top / SPT_TILE,
-                                  (frame->right - 1) / SPT_TILE + 1,
-                                  (frame->bottom - 1) / SPT_TILE + 1};
-    return tiles;
-}
-
 size_t spti_job_tiles(const spti_job *job) {
     const spti_rectangle tiles = tiles_of(&job->frame);
-    return (size_t)(tiles.x_1 - tiles.x_0) * (tiles.y_1 - tiles.y_0); /* below 2^32 */
+    return (size_t)(tiles.x_1 - tiles.x_0) * (tiles.y_1 - tiles.y_0); /* at most 2^32, checked */
 }
 
 void spti_job_tile(const spti_job *job, size_t index, uint32_t *column, uint32_t *row) {

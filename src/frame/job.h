@@ -46,7 +46,7 @@ spti_grid spti_full_grid(const spti_job *job);
 /* Whether an image of the region can be written where it is said to be, and the depths read. */
 int spti_image_fits(const spt_frame *frame, const spt_hits *image);
 
-/* How many tiles it has, below 2^32, and which tile of the image one of them is. */
+/* How many tiles it has, and which tile of the image one of them is. */
 size_t spti_job_tiles(const spti_job *job);
 void spti_job_tile(const spti_job *job, size_t index, uint32_t *column, uint32_t *row);
 

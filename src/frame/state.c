@@ -18,8 +18,8 @@ static uint32_t scaled(uint32_t size, const spt_pass *pass) {
                       pass->denominator);
 }
 
-size_t spti_part_pixels(const spti_grid *grid) {
-    return (size_t)(grid->part.x_1 - grid->part.x_0) * (grid->part.y_1 - grid->part.y_0);
+uint64_t spti_part_pixels(const spti_grid *grid) {
+    return (uint64_t)(grid->part.x_1 - grid->part.x_0) * (grid->part.y_1 - grid->part.y_0);
 }
 
 /* Lays out the grids, from the last pass to the first: each covers the pixels of the next one. */
@@ -87,7 +87,7 @@ int spti_keeps_cones(const spti_state *state, size_t k) {
 
 /* Sets the state up for a job; with memory NULL only counts. Returns the bytes, 0: too many. */
 static size_t lay_out(spti_state *state, const spti_job *job, char *memory) {
-    static const spt_pass whole[] = {{1, 1, 1.0f}};
+    const spt_pass *const whole = spt_passes(1);
     const size_t desk = spti_desk_size(job->scene.count), most = SIZE_MAX / 8;
     size_t size = (sizeof *state + 63) / 64 * 64;
     if (desk == 0 || desk > most) return 0;
@@ -103,15 +103,15 @@ static size_t lay_out(spti_state *state, const spti_job *job, char *memory) {
         spti_level *const level = &state->levels[k];
         const size_t floats = (spti_keeps_cones(state, k) ? 1u : 0u) +
                               (job->frame.shade != NULL ? job->frame.channels : 0u);
-        const size_t pixels = spti_part_pixels(&level->grid);
+        const uint64_t pixels = spti_part_pixels(&level->grid);
         if (floats != 0 && pixels > (most - size) / (floats * sizeof(float))) return 0;
         if (memory != NULL && spti_keeps_cones(state, k)) {
             level->free_t = (float *)(void *)(memory + size);
         }
-        size += spti_keeps_cones(state, k) ? (pixels * sizeof(float) + 63) / 64 * 64 : 0;
+        size += spti_keeps_cones(state, k) ? ((size_t)pixels * sizeof(float) + 63) / 64 * 64 : 0;
         if (job->frame.shade == NULL) continue;
         if (memory != NULL) level->colours = (float *)(void *)(memory + size);
-        size += (pixels * job->frame.channels * sizeof(float) + 63) / 64 * 64;
+        size += ((size_t)pixels * job->frame.channels * sizeof(float) + 63) / 64 * 64;
     }
     return size;
 }
@@ -134,7 +134,7 @@ spt_status spti_state_check(const spti_job *job, const void *memory, size_t size
 
 void spti_state_begin(spti_state *state, const spti_job *job) {
     lay_out(state, job, (char *)state);
-    state->begun = SPTI_STATE_BEGUN;
+    state->begun = SPTI_STATE_BEGUN ^ (uintptr_t)state; /* a moved state is none */
 }
 
 spt_status spt_frame_restart(const spt_frame *frame, void *state, size_t state_size) {
@@ -151,12 +151,13 @@ spt_status spt_frame_restart(const spt_frame *frame, void *state, size_t state_s
             offsetof(type, last) + sizeof(a)->last - offsetof(type, first)) == 0)
 
 int spti_state_fits(const spti_state *state, const spti_job *job) {
-    static const spt_pass whole[] = {{1, 1, 1.0f}};
+    const spt_pass *const whole = spt_passes(1);
     const spti_job *const old = &state->job;
     const spt_frame *const a = &old->frame, *const b = &job->frame;
     const size_t pass_count = b->passes != NULL ? b->pass_count : 1;
     const spt_pass *const passes = b->passes != NULL ? b->passes : whole;
-    return state->begun == SPTI_STATE_BEGUN && pass_count == state->pass_count &&
+    return state->begun == (SPTI_STATE_BEGUN ^ (uintptr_t)state) &&
+           pass_count == state->pass_count &&
            memcmp(passes, state->passes, pass_count * sizeof *passes) == 0 &&
            SAME(&old->camera, &job->camera, spt_camera, kind, t_max) &&
            old->camera.rays == job->camera.rays && old->camera.user == job->camera.user &&

@@ -39,7 +39,7 @@ typedef struct spti_state {
 uint32_t spti_overlap_begin(uint32_t i, uint32_t n, uint32_t m);
 uint32_t spti_overlap_end(uint32_t i, uint32_t n, uint32_t m);
 
-size_t spti_part_pixels(const spti_grid *grid);
+uint64_t spti_part_pixels(const spti_grid *grid);
 
 /* Whether a level keeps where its cones came to: the caller's rays have none. */
 int spti_keeps_cones(const spti_state *state, size_t level);

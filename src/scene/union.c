@@ -162,8 +162,11 @@ static void clear_ray(spti_union *lazy, size_t place, size_t ray) {
     if (found.begin > *key) {
         const float exit = spti_union_state(lazy, place, SPTI_STATE_EXIT)[ray];
         /* Whoever begins in the zone, or comes to it inside of the body, has not entered it. */
-        const int outside = *key > spti_union_row(lazy, SPTI_ROW_T_MIN)[ray] &&
-                            !has(spti_union_masks(lazy, lazy->inside, place), ray);
+        const float own = spti_union_row(lazy, SPTI_ROW_T_MIN)[ray];
+        const spti_clearing begins = spti_zone_clearing(
+            lazy->zones, lazy->zone_count, (int32_t)lazy->list[place], origin, direction, own);
+        const int outside =
+            begins.begin < found.begin && !has(spti_union_masks(lazy, lazy->inside, place), ray);
         if (outside) set(spti_union_masks(lazy, lazy->cut, place), ray);
         *key = found.begin <= exit ? found.begin : INFINITY;
         clear(spti_union_masks(lazy, lazy->inside, place), ray);
@@ -329,7 +332,7 @@ void spti_union_leave(const spti_call *call, spti_chunk *chunk, spti_leavers *le
 
 /* ---- Sweeps --------------------------------------------------------------------------------- */
 
-/* All rays whose nearest component it is: the fresh ones, then those it knows. */
+/* All rays whose nearest component it is: those it knows, the fresh ones, those at a cut. */
 static void take_turn(spti_union *lazy, size_t place) {
     const spti_call *const call = &lazy->calls[lazy->list[place]];
     const size_t groups = spti_union_groups(lazy);

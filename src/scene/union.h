@@ -123,7 +123,7 @@ typedef struct spti_union_kernels {
     /* Takes a window of loaded rays over into the rows, and finds the bad ones (alive). */
     void (*begin)(spti_union *lazy, size_t window, size_t count);
     /* Where the rays enter and leave the bound of a component, if it has one; starts as in
-     * spti_union_begin(), of this component. */
+     * spti_union_enter(), of this component. */
     void (*enter)(spti_union *lazy, size_t place, const float *starts);
     /* Finds the nearest component of every ray, ends those that are decided, and makes tasks of the
      * others. Returns whether any are left. */

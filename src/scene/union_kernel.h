@@ -158,6 +158,18 @@ SPTI_INLINE void union_put(const union_vector *into, int array, spt_wide a) {
     spti_compress(&into->chunk->array[array][into->to], a, into->keep);
 }
 
+/* Whether fresh rays enter something, as prepare_vector() marks them. */
+SPTI_INLINE spt_wide union_enters(const spti_union *lazy, const spti_call *call, size_t at,
+                                  spt_wide t, spt_wide floor_at_0) {
+    const spt_wide own = spt_load(&spti_union_row(lazy, SPTI_ROW_T_MIN)[at]);
+    const spt_wide path =
+        lazy->one_origin ? spt_splat(0.0f) : spt_load(&spti_union_row(lazy, SPTI_ROW_PATH)[at]);
+    const spt_wide tolerance =
+        ray_tolerance(spt_load(&spti_union_row(lazy, SPTI_ROW_EPSILON)[at]),
+                      spt_splat(call->march.pixel_radius), path, ray_floor(floor_at_0, t), t);
+    return prepare_enters(own, t, tolerance);
+}
+
 /* What a component's march along fresh rays, or those it knows, begins with. */
 SPTI_INLINE void union_take_march(const spti_union *lazy, const spti_call *call, size_t at,
                                   int begun, const union_vector *into) {
@@ -189,7 +201,9 @@ SPTI_INLINE void union_take_march(const spti_union *lazy, const spti_call *call,
         union_put(into, SPTI_X + axis, spt_add(origin, spt_mul(probe, direction)));
     }
     const spt_wide reach = spt_load(&spti_union_row(lazy, SPTI_ROW_REACH)[at]);
-    union_put(into, SPTI_FLOOR_AT_0, prepare_floor(&call->march, reach, length));
+    const spt_wide floor_at_0 = prepare_floor(&call->march, reach, length);
+    if (!begun) pending_value = union_enters(lazy, call, at, t, floor_at_0);
+    union_put(into, SPTI_FLOOR_AT_0, floor_at_0);
     union_put(into, SPTI_SCALE, scale);
     union_put(into, SPTI_T_MAX, t_max);
     union_put(into, SPTI_T, t);

@@ -185,7 +185,8 @@ static int apply_start_options(const spti_call *call, spti_chunk *chunk, size_t 
         spti_fates *fates = &chunk->fates[slot / SPTI_GROUP];
         const uint16_t bit = (uint16_t)(1u << slot % SPTI_GROUP);
         const int inside = chunk->array[SPTI_SCALE][slot] < 0.0f && !(fates->nonfinite & bit);
-        if ((call->settings.flags & SPT_SKIP_START) && (fates->hit & bit)) {
+        if ((call->settings.flags & SPT_SKIP_START) && (fates->hit & bit) &&
+            !spti_enters(chunk, slot)) {
             /* Still within the tolerance: the budget ended while skipping, and it is no hit. */
             fates->hit &= (uint16_t)~bit;
         } else if ((call->settings.flags & SPT_STOP_INSIDE) && inside) {

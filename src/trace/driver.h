@@ -64,6 +64,11 @@ int spti_method_allowed(const spt_method *method, const spt_field *field);
 /* Whether count rays and hits can be read and written where they are said to be. */
 int spti_views_fit(const spt_rays *rays, const spt_hits *hits, size_t count);
 
+/* Whether a ray begins where it enters something (prepare_kernel.h), asked before it has moved. */
+static inline int spti_enters(const spti_chunk *chunk, size_t slot) {
+    return chunk->array[SPTI_PENDING_VALUE][slot] > 0.0f;
+}
+
 /* Whether rays spend evaluations beside those of the passes of a chunk. */
 static inline int spti_keeps_spent(const spti_call *call) {
     return (call->settings.flags & SPT_SKIP_START) != 0 || call->stop != NULL;

@@ -122,11 +122,19 @@ SPTI_INLINE void prepare_store(spti_chunk *chunk, const spti_march *march, size_
     }
 }
 
+/* 1 for rays that begin where they enter something, by more than a tolerance behind their own
+ * t_min: SPT_SKIP_START does not concern them. */
+SPTI_INLINE spt_wide prepare_enters(spt_wide own, spt_wide t, spt_wide tolerance) {
+    const spt_mask enters = spt_less(spt_add(own, tolerance), t);
+    return spt_select(enters, spt_splat(1.0f), spt_splat(0.0f));
+}
+
 SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, size_t at,
                                 unsigned shift, spti_fates *fates) {
     prepare_rays rays;
     prepare_load(chunk, at, &rays);
     const spt_wide unit = prepare_units(&rays);
+    const spt_wide own = rays.t_min;
     if (march->bound != NULL) {
         interval_of_bound(march->bound, &rays.ray, &rays.t_min, &rays.t_max);
     }
@@ -140,6 +148,15 @@ SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, size
     fates->finished = (uint16_t)(fates->finished | finished << shift);
     spt_store(&chunk->unit[at], unit);
     prepare_store(chunk, march, at, &rays);
+    if (march->bound != NULL) {
+        const spt_wide floor = ray_floor(spt_load(&chunk->array[SPTI_FLOOR_AT_0][at]), rays.t_min);
+        const spt_wide tolerance =
+            ray_tolerance(spt_load(&chunk->array[SPTI_EPSILON][at]), spt_splat(march->pixel_radius),
+                          spt_load(&chunk->array[SPTI_PATH][at]), floor, rays.t_min);
+        /* Until a probe is kept nobody else looks there. */
+        spt_store(&chunk->array[SPTI_PENDING_VALUE][at],
+                  prepare_enters(own, rays.t_min, tolerance));
+    }
 }
 
 SPTI_INLINE int prepare_pass(spti_chunk *chunk, const spti_march *march, size_t count) {

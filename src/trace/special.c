@@ -58,6 +58,7 @@ uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count)
     uint32_t steps = 0;
     for (size_t slot = 0; slot < count; ++slot) {
         chunk->array[SPTI_VALUE][slot] = chunk->distance[slot];
+        if (spti_enters(chunk, slot)) continue;
         if (within_tolerance(call, chunk, slot)) walking[walkers++] = (unsigned char)slot;
     }
     for (; walkers > 0 && steps < call->settings.budget; ++steps) {

@@ -101,7 +101,9 @@ static void settle_arrays(spti_call *call) {
         if (array == SPTI_PATH) held = !call->one_origin;
         if (array == SPTI_MEMORY) held = method->memory > 0;
         if (array == SPTI_PENDING_T) held = method->pending || method->memory > 1;
-        if (array == SPTI_PENDING_VALUE) held = method->pending;
+        if (array == SPTI_PENDING_VALUE) {
+            held = method->pending || (call->settings.flags & SPT_SKIP_START) != 0;
+        }
         if (array == SPTI_SPENT) held = spti_keeps_spent(call);
         if (array == SPTI_STOP) held = call->stop != NULL;
         if (array == SPTI_STEEPEST) held = (call->wants & SPTI_WANT_SLOPE) != 0;
