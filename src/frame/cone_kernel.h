@@ -150,11 +150,11 @@ SPTI_INLINE unsigned cone_advance(const spti_bundles *bundles, spti_walk *walk) 
             spt_add(spt_add(spt_load(&bundles->floor_at_0[at]), spt_splat(walk->floor_of_size)),
                     spt_mul(spt_splat(SPTI_FLOOR), t));
         const spt_wide distance = cone_distance(walk, at);
-        const spt_wide free =
+        const spt_wide empty =
             spt_div(spt_sub(spt_sub(distance, width), floor), spt_add(one, alpha));
         const spt_wide tolerance = spt_max(spt_mul(spt_splat(0.1f), width), floor);
-        const spt_mask goes = spti_less_in(walks, tolerance, free);
-        spt_wide step = free;
+        const spt_mask goes = spti_less_in(walks, tolerance, empty);
+        spt_wide step = empty;
         spt_mask never = spt_mask_splat(0);
         if (walk->convex) {
             /* Inside the bound the free length of a convex field is convex along the ray: it is
@@ -162,15 +162,15 @@ SPTI_INLINE unsigned cone_advance(const spti_bundles *bundles, spti_walk *walk) 
             const spt_wide t_old = spt_load(&walk->t_old[at]), old = spt_load(&walk->old[at]);
             const spt_mask inside = spt_less_equal(spt_load(&walk->gap[at]), zero);
             const spt_mask pair = spt_mask_and(inside, spt_less(old, infinity));
-            const spt_wide drop = spt_add(spt_sub(old, free), floor);
+            const spt_wide drop = spt_add(spt_sub(old, empty), floor);
             const spt_mask falls = spt_mask_and(pair, spt_less(zero, drop));
             const spt_wide divisor = spt_select(falls, drop, one);
             const spt_wide secant =
-                spt_div(spt_mul(spt_sub(free, floor), spt_sub(t, t_old)), divisor);
-            step = spt_select(falls, spt_max(free, secant), free);
+                spt_div(spt_mul(spt_sub(empty, floor), spt_sub(t, t_old)), divisor);
+            step = spt_select(falls, spt_max(empty, secant), empty);
             never = spt_mask_and_not(pair, falls);
             spt_store(&walk->t_old[at], t);
-            spt_store(&walk->old[at], spt_select(inside, free, infinity));
+            spt_store(&walk->old[at], spt_select(inside, empty, infinity));
         }
         const spt_wide next = spt_add(t, step);
         const spt_wide t_out = spt_load(&walk->t_out[at]);

@@ -160,7 +160,7 @@ static void clear_ray(spti_union *lazy, size_t place, size_t ray) {
     const spti_clearing found = spti_zone_clearing(
         lazy->zones, lazy->zone_count, (int32_t)lazy->list[place], origin, direction, *key);
     if (found.begin > *key) {
-        const float exit = spti_union_state(lazy, place, SPTI_STATE_EXIT)[ray];
+        const float last = spti_union_state(lazy, place, SPTI_STATE_EXIT)[ray];
         /* Whoever begins in the zone, or comes to it inside of the body, has not entered it. */
         const float own = spti_union_row(lazy, SPTI_ROW_T_MIN)[ray];
         const spti_clearing begins = spti_zone_clearing(
@@ -168,7 +168,7 @@ static void clear_ray(spti_union *lazy, size_t place, size_t ray) {
         const int outside =
             begins.begin < found.begin && !has(spti_union_masks(lazy, lazy->inside, place), ray);
         if (outside) set(spti_union_masks(lazy, lazy->cut, place), ray);
-        *key = found.begin <= exit ? found.begin : INFINITY;
+        *key = found.begin <= last ? found.begin : INFINITY;
         clear(spti_union_masks(lazy, lazy->inside, place), ray);
         clear(spti_union_masks(lazy, lazy->tasks, place), ray);
     }

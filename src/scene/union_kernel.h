@@ -285,8 +285,8 @@ SPTI_INLINE int union_stop(spti_chunk *chunk, size_t count) {
             const size_t at = group * SPTI_GROUP + shift;
             const spt_wide value = spt_load(&chunk->array[SPTI_VALUE][at]);
             const spt_wide radius = spt_mul(value, spt_load(&chunk->array[SPTI_SCALE][at]));
-            const spt_wide free = spt_add(spt_load(&chunk->array[SPTI_T][at]), radius);
-            const spt_mask stops = spt_less_equal(spt_load(&chunk->array[SPTI_STOP][at]), free);
+            const spt_wide free_to = spt_add(spt_load(&chunk->array[SPTI_T][at]), radius);
+            const spt_mask stops = spt_less_equal(spt_load(&chunk->array[SPTI_STOP][at]), free_to);
             stopped |= spt_mask_bits(stops) << shift;
         }
         if (left < SPTI_GROUP) stopped &= (1u << left) - 1u;
