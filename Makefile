@@ -27,6 +27,8 @@ LAW = -std=c99 $(WARN) -fvisibility=hidden
 KEEP = -ffp-contract=off -fno-math-errno -fexceptions
 COMPILE = $(CC) $(LAW) -O3 -MMD -Iinclude
 # V=1 shows the commands.
+# Two jobs at a time unless more are asked for.
+MAKEFLAGS += -j2
 ifndef V
 Q := @
 SAY = @echo '  $(1)'

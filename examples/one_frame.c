@@ -38,6 +38,7 @@ static int trace_picture(int32_t *shown) {
     scene.count = 2;
     image.component.first = shown;
     image.component.stride = sizeof *shown;
+    /* A character is twice as high as wide. */
     if (spt_camera_pinhole(&camera, eye, target, up, 0.8f, width, 2 * height) != SPT_OK) return 0;
     camera.t_max = 40.0f;
     if (spt_frame_init(&frame, &scene, &camera, width, height) != SPT_OK) return 0;

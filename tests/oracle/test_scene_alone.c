@@ -72,7 +72,7 @@ static void Q23_shared_scenes_as_if_alone(void) {
 
 /* ---- Random scenes ------------------------------------------------------------------------- */
 
-enum { draws = 32, rays_drawn = 100 };
+enum { draws = 16, rays_drawn = 100 };
 
 /* The scene with every rule, at every width or at some width. */
 static void check_drawn(const spt_scene *united, const spt_settings *chosen, const char *title,
