@@ -94,7 +94,8 @@ refused 'inside' $size --region 100,0,51x10 primitives
 # An interrupt: status 130, what is missing is said, and the picture is there. 64 samples a pixel
 # keep any machine busy for longer than it takes to interrupt it.
 if command -v timeout >/dev/null && [ -z "${RUN:-}" ]; then
-  timeout --preserve-status -s INT 1 "$1/render" --threads 2 --size 1280x720 --samples 8 \
+  # In the foreground: else the whole group is interrupted, render twice, and the second one kills.
+  timeout --foreground --preserve-status -s INT 1 "$1/render" --threads 2 --size 1280x720 --samples 8 \
     mandelbulb -o "$folder/partial.ppm" >"$folder/log" 2>&1
   [ $? = 130 ] || wrong "status $? after an interrupt"
   grep -q 'tiles are missing' "$folder/log" || wrong 'nothing is said of missing tiles'
