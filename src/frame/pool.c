@@ -114,10 +114,13 @@ static void trace_alone(spti_desk *desk, const spt_hits *image) {
 }
 
 void spti_desk_trace(spti_desk *desk, const spt_hits *image) {
+    /* Zones are the union's business, and it knows where a ray began whose start is skipped. */
+    const int needs_union =
+        desk->lazy.zone_count > 0 || (desk->settings.flags & SPT_SKIP_START) != 0;
     const int may_be_bad = spti_desk_owns_rays(desk) || desk->job->frame.t_max.first != NULL;
     if (desk->chunk_listed == 0 && !may_be_bad) {
         miss_all(desk, image);
-    } else if (desk->chunk_listed == 1 && desk->lazy.zone_count == 0) {
+    } else if (desk->chunk_listed == 1 && !needs_union) {
         trace_alone(desk, image);
     } else {
         pool_chunk(desk);

@@ -4,7 +4,11 @@
  * and leave it into a body, and SPT_SKIP_START with bounds. */
 #include "test_scene_cases.h"
 
+#include <spheretrace/frame.h>
+
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* ---- Zones ----------------------------------------------------------------------------------- */
 
@@ -194,9 +198,69 @@ static void found_skipping_on_the_face_of_a_bound(void) {
     }
 }
 
+/* ---- Starts that are skipped in frames ---------------------------------------------------------- */
+
+static float found_slab(void *user, float x, float y, float z) {
+    (void)user, (void)x, (void)y;
+    return z < 2.0f ? -z : z - 4.0f;
+}
+
+/* A frame whose tiles cull knows where a ray itself begins: from nearer than the tolerance the
+ * surface is skipped, from farther not, as in spt_scene_trace(). */
+static void found_skipped_starts_of_culled_frames(void) {
+    enum { side = 8, pixels = side * side };
+    static const float up[3] = {0, 1, 0}, target[3] = {0, 0, 1};
+    static spt_hit seen[pixels], right[pixels];
+    static spt_camera_ray rays[pixels];
+    const spt_bound bound = spt_bound_box(-9, -9, 0, 9, 9, 4);
+    const spt_hits seen_view = spt_hits_of(seen), right_view = spt_hits_of(right);
+    spt_rays view = spt_rays_of(&rays->ray);
+    spt_field field = spt_field_default();
+    spt_scene scene = spt_scene_default();
+    field.point = found_slab;
+    field.bound = &bound;
+    scene.fields = &field;
+    scene.count = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        view.origin[axis].stride = view.direction[axis].stride = sizeof *rays;
+    }
+    view.t_min.stride = view.t_max.stride = sizeof *rays;
+    for (int far = 0; far < 2; ++far) {
+        const float eye[3] = {0.0f, 0.0f, far ? -0.03f : -0.003f};
+        float x[pixels], y[pixels];
+        spt_camera camera;
+        spt_frame frame;
+        for (int i = 0; i < pixels; ++i) {
+            x[i] = (float)(i % side) + 0.5f;
+            y[i] = (float)(i / side) + 0.5f;
+        }
+        CHECK(spt_camera_pinhole(&camera, eye, target, up, 0.3f, side, side) == SPT_OK);
+        CHECK(spt_camera_rays(&camera, side, side, pixels, x, y, rays) == SPT_OK);
+        CHECK(spt_frame_init(&frame, &scene, &camera, side, side) == SPT_OK);
+        frame.settings.epsilon = 0.01f;
+        frame.settings.flags = SPT_SKIP_START;
+        frame.flags = SPT_FRAME_NO_CONES;
+        frame.workspace_size = spt_frame_workspace(&frame);
+        const size_t size = spt_scene_workspace(&scene, &frame.settings);
+        void *const workspace = malloc(size);
+        frame.workspace = malloc(frame.workspace_size);
+        CHECK(workspace != NULL && frame.workspace != NULL);
+        CHECK(spt_frame_trace(&frame, 0, 1, &seen_view, NULL) == SPT_OK);
+        CHECK(spt_scene_trace(&scene, &frame.settings, pixels, &view, &right_view, workspace, size,
+                              NULL) == SPT_OK);
+        for (int i = 0; i < pixels; ++i) {
+            CHECK_SAY(memcmp(&seen[i], &right[i], sizeof seen[i]) == 0, "far %d, pixel %d", far, i);
+            CHECK((right[i].outcome == SPT_HIT && right[i].t < 1.0f) == far);
+        }
+        free(frame.workspace);
+        free(workspace);
+    }
+}
+
 void suite_scene_found(void) {
     RUN(found_rays_that_begin_in_a_zone);
     RUN(found_skipping_and_the_face_of_a_bound);
     RUN(found_skipping_in_a_union);
     RUN(found_skipping_on_the_face_of_a_bound);
+    RUN(found_skipped_starts_of_culled_frames);
 }
