@@ -234,7 +234,7 @@ static void found_skipped_starts_of_culled_frames(void) {
             x[i] = (float)(i % side) + 0.5f;
             y[i] = (float)(i / side) + 0.5f;
         }
-        CHECK(spt_camera_pinhole(&camera, eye, target, up, 0.3f, side, side) == SPT_OK);
+        CHECK(spt_camera_pinhole(&camera, eye, target, up, 1e-4f, side, side) == SPT_OK);
         CHECK(spt_camera_rays(&camera, side, side, pixels, x, y, rays) == SPT_OK);
         CHECK(spt_frame_init(&frame, &scene, &camera, side, side) == SPT_OK);
         frame.settings.epsilon = 0.01f;
