@@ -20,7 +20,7 @@ typedef struct march {
     double length, t, t_max;
     double before; /* the t of the sample before */
     double close;  /* where the distance fell below the gap and has stayed so, or +infinity */
-    char side[most_components];
+    signed char side[most_components];
     int behind; /* it is behind the surface, on the way to deep */
 } march;
 
