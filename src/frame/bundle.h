@@ -51,10 +51,10 @@ typedef struct spti_walk {
     SPTI_ALIGNED(64) float distance[SPTI_BUNDLES];
     SPTI_ALIGNED(64) float walks[SPTI_BUNDLES]; /* 1: is on its way; 0: has stopped */
     SPTI_ALIGNED(64) float gap[SPTI_BUNDLES];   /* square of the point's distance to the bound */
-    SPTI_ALIGNED(64) float t[SPTI_BUNDLES];     /* free up to here; +infinity: all along */
+    SPTI_ALIGNED(64) float t[SPTI_BUNDLES];     /* empty up to here; +infinity: all along */
     SPTI_ALIGNED(64) float t_out[SPTI_BUNDLES]; /* where the bundle has left the bound */
     SPTI_ALIGNED(64) float t_old[SPTI_BUNDLES]; /* the sample before, and the */
-    SPTI_ALIGNED(64) float old[SPTI_BUNDLES];   /* free length there; for secants */
+    SPTI_ALIGNED(64) float old[SPTI_BUNDLES];   /* empty length there; for secants */
     float epsilon, pixel_radius, inverse_lipschitz, floor_of_size;
     const spt_bound *bound; /* of the component, or NULL */
     int convex;

@@ -52,7 +52,7 @@ enum {
     SPTI_FALLBACKS, /* exact to 2^24 */
     SPTI_CANDIDATE_T,
     SPTI_CANDIDATE_RATIO,
-    SPTI_STOP, /* the ray is set aside when it is free up to here; only in calls that stop */
+    SPTI_STOP, /* a ray that is certified up to here is set aside; only in calls that stop */
     SPTI_ARRAYS
 };
 
