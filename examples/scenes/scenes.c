@@ -10,16 +10,18 @@
 #include <string.h>
 
 /* Constants for the member bound. */
-#define BALL(x, y, z, radius) \
+#define BALL(x, y, z, ball_radius) \
     &(const spt_bound) { \
-        sizeof(spt_bound), SPT_BOUND_SPHERE, {x, y, z}, radius, {0}, { \
-            0 \
-        } \
+        .struct_size = sizeof(spt_bound), .kind = SPT_BOUND_SPHERE, .center = {x, y, z}, \
+        .radius = ball_radius \
     }
 #define BOX(low_x, low_y, low_z, high_x, high_y, high_z) \
     &(const spt_bound) { \
-        sizeof(spt_bound), SPT_BOUND_BOX, {0}, 0, {low_x, low_y, low_z}, { \
-            high_x, high_y, high_z \
+        .struct_size = sizeof(spt_bound), .kind = SPT_BOUND_BOX, .low = {low_x, low_y, low_z}, \
+        .high = { \
+            high_x, \
+            high_y, \
+            high_z \
         } \
     }
 

@@ -38,7 +38,8 @@ extern "C" {
 
 /* What a call says of its ARGUMENTS. What a ray meets is never a status but data in its hit.
  * With any status but SPT_OK nothing was written and no callback was called; only a clock that
- * stands still is found out by calling it, and the field. */
+ * stands still is found out by calling it, and the field; and that a bound is empty, by asking
+ * it. */
 typedef enum spt_status {
     SPT_OK = 0,
     SPT_BAD_ARGUMENT,     /* an argument outside its documented range */

@@ -50,6 +50,13 @@ typedef void spt_distance_batch_fn(void *user, size_t n, const float *x, const f
 /* The same for one point: simple to write, several times slower to trace. */
 typedef float spt_distance_fn(void *user, float x, float y, float z);
 
+/* The gradient of f at n points, as far as its direction goes: its length does not matter. A point
+ * without one gives zero or anything not finite. n, x, y, z as above; the three arrays of the
+ * gradient are 64-byte aligned. */
+typedef void spt_gradient_batch_fn(void *user, size_t n, const float *x, const float *y,
+                                   const float *z, float *gradient_x, float *gradient_y,
+                                   float *gradient_z);
+
 enum {
     /* f is a convex FUNCTION (not only a convex body): the exact distance to a convex body, a
      * maximum of planes, a norm. Licenses spt_convex(): the secant step and early misses. */
@@ -69,11 +76,13 @@ typedef struct spt_field {
     const char *glsl;             /* body of float NAME(vec3 p), the same field for a shader, or
                                    * NULL. Not read when tracing */
     const char *glsl_prelude;     /* functions which that body needs, or NULL */
+    spt_gradient_batch_fn *gradient; /* for normals (surface.h), or NULL: differences of f. Not read
+                                      * when tracing */
 } spt_field;
 
 /* A field without callbacks: lipschitz 1, no flags, no bound. */
 static inline spt_field spt_field_default(void) {
-    spt_field field = {0, NULL, NULL, NULL, 1.0f, 0, NULL, NULL, NULL};
+    spt_field field = {0, NULL, NULL, NULL, 1.0f, 0, NULL, NULL, NULL, NULL};
     field.struct_size = sizeof field;
     return field;
 }
@@ -95,6 +104,31 @@ typedef struct spt_field_cost {
  * with SPT_OK. */
 SPT_API spt_status spt_field_measure(const spt_field *field, spt_clock_fn *clock, void *clock_user,
                                      spt_field_cost *cost);
+
+/* What a sampled check of a field's promises found. Each count is of samples that broke one, by
+ * more than rounding explains; `worst` is where the worst of its kind was seen. */
+typedef struct spt_field_faults {
+    uint32_t outside_bound;   /* f < 0 on the boundary of the bound: the body sticks out */
+    uint32_t not_convex;      /* f at the middle of two points above the mean of both, with
+                              * SPT_FIELD_CONVEX */
+    uint32_t body_not_convex; /* f > 0 at the middle of two points inside: the body itself is not
+                               * convex, as spt_trace_convex() needs it (surface.h) */
+    uint32_t steep;           /* f changed by more than lipschitz times the distance, by 0.1 % */
+    uint32_t nonfinite;       /* NaN or -infinity; such a sample is in no other count */
+    float worst[5][3];        /* in the order above; zero where there was none */
+} spt_field_faults;
+
+/* Looks for broken promises at random points in and on the field's bound, for debug builds and
+ * tests of callers: it reports instead of crashing, and finds a fault only where a sample shows it.
+ * Pairs of points lie on random chords of the bound, each through a point of the last one (hit-and-
+ * run; Smith 1984) or of the body.
+ *   samples  pairs of points, 1 to 2^20; each costs about five evaluations
+ *   seed     of the points: equal seeds, equal points
+ * Returns SPT_BAD_ARGUMENT for a bad field, a NULL pointer or samples out of range, SPT_UNSUPPORTED
+ * for a field without bound, with one of infinite extent, or with one in which no point is found.
+ * faults is written only with SPT_OK. */
+SPT_API spt_status spt_field_check(const spt_field *field, uint32_t samples, uint32_t seed,
+                                   spt_field_faults *faults);
 
 #ifdef __cplusplus
 }

@@ -12,6 +12,7 @@
 #include "frame.h"
 #include "scene.h"
 #include "shapes.h"
+#include "surface.h"
 #include "trace.h"
 
 #endif

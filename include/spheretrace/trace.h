@@ -110,7 +110,10 @@ enum {
     SPT_FLAG_STEEP = 1u << 0,
     /* The first sample was inside (f < 0): the ray looked for the way out. With SPT_SKIP_START the
      * first sample is the first that is not skipped. */
-    SPT_FLAG_INSIDE = 1u << 1
+    SPT_FLAG_INSIDE = 1u << 1,
+    /* spt_trace_convex(): a sample betrayed that the body is not convex or sticks out of its bound,
+     * and the ray was traced forward instead (surface.h). */
+    SPT_FLAG_NOT_CONVEX = 1u << 2
 };
 
 /* Results as columns, each optional (first NULL: not wanted, and the work it needs is left out).
@@ -210,7 +213,21 @@ enum {
     SPT_SKIP_START = 1u << 0,
     /* A ray whose first sample is inside ends there at once: SPT_HIT with SPT_FLAG_INSIDE.
      * Otherwise it is traced to the way out. */
-    SPT_STOP_INSIDE = 1u << 1
+    SPT_STOP_INSIDE = 1u << 1,
+    /* What the candidate of a ray is (at most one of the two; neither: as spt_hits says). Both look
+     * between the samples, too: the spheres of two neighbours meet in a circle, whose radius is a
+     * lower bound of the distance to any surface there, and exact for one that touches it. A ray
+     * that hits nothing takes one more sample, at t_max (where that is below 2^62 in world length
+     * or so; behind that, nothing counts), so that the bound holds for all of it. Of a field with a
+     * bound only the way inside it counts, up to its end.
+     * PENUMBRA: the least of that distance over t |direction|, the tangent of the angle by which
+     *   the ray misses a surface as seen from its own origin, whatever its path; see spt_penumbra()
+     *   (surface.h)
+     * CLOSEST: the least of that distance, world length, and where the ray passes closest */
+    SPT_CANDIDATE_PENUMBRA = 1u << 2,
+    SPT_CANDIDATE_CLOSEST = 1u << 3,
+    /* Read by spt_trace_convex() only: each ray from inside checks what it relies on. */
+    SPT_CHECK_CONVEX = 1u << 4
 };
 
 typedef struct spt_settings {
@@ -232,7 +249,7 @@ typedef struct spt_settings {
     float step_cap;           /* spt_adaptive: longest step over r, in [1, 100]. Default 3 */
     uint32_t max_lanes;       /* 1, 4, 8 or 16: no wider than this; 0: the widest there is. A width
                                * the machine lacks falls to the next lower one */
-    uint32_t flags;           /* SPT_SKIP_START | SPT_STOP_INSIDE. Default 0 */
+    uint32_t flags;           /* SPT_SKIP_START and so on. Default 0 */
 } spt_settings;
 
 /* The defaults above. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * Where rays are inside a bounding volume. A template over SPT_LANES.
- * Defines interval_of_bound(), which narrows [t_min, t_max]; where empty, t_min > t_max. */
+ * Where rays are inside a sphere or a box at right angles to the axes. A template over SPT_LANES.
+ * Defines interval_of_hull(), which narrows [t_min, t_max]; where empty, t_min > t_max. The other
+ * volumes are in volume_kernel.h. */
 #ifndef SPTI_INTERVAL_KERNEL_H
 #define SPTI_INTERVAL_KERNEL_H
 
@@ -110,14 +111,15 @@ SPTI_INLINE void interval_of_sphere(const spt_bound *bound, const interval_ray *
     *t_out = spt_select(touched, leaves, spt_splat(-INFINITY));
 }
 
-SPTI_INLINE void interval_of_bound(const spt_bound *bound, const interval_ray *ray, spt_wide *t_min,
-                                   spt_wide *t_max) {
-    const spt_wide size = spt_splat(spti_bound_size(bound));
+/* Of a sphere, or of the box that a copy of any other volume holds (bound_check.h). size is that of
+ * the volume. */
+SPTI_INLINE void interval_of_hull(const spt_bound *bound, float size, const interval_ray *ray,
+                                  spt_wide *t_min, spt_wide *t_max) {
     spt_wide t_in, t_out;
     if (bound->kind == SPT_BOUND_SPHERE) {
-        interval_of_sphere(bound, ray, size, &t_in, &t_out);
+        interval_of_sphere(bound, ray, spt_splat(size), &t_in, &t_out);
     } else {
-        interval_of_box(bound, ray, size, &t_in, &t_out);
+        interval_of_box(bound, ray, spt_splat(size), &t_in, &t_out);
     }
     *t_min = spt_max(t_in, *t_min);
     *t_max = spt_min(t_out, *t_max);

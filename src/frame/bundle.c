@@ -200,12 +200,17 @@ void spti_bundles_of_rays(const spt_camera_ray *rays, spti_bundles *bundles) {
 
 /* ---- Walking -------------------------------------------------------------------------------- */
 
-/* The bound, grown by as much as the bundles are wide where their rays can be inside it. */
+/* The bound, a sphere or the box of any other, grown by as much as the bundles are wide where their
+ * rays can be inside it. */
 static spt_bound grown_bound(const spti_bundles *bundles, const spt_bound *bound) {
+    const int ball = bound->kind == SPT_BOUND_SPHERE;
     float square = 0.0f;
     spt_bound grown = *bound;
+    if (!ball) {
+        grown.kind = SPT_BOUND_BOX;
+        grown.radius = 0.0f;
+    }
     for (int axis = 0; axis < 3; ++axis) {
-        const int ball = bound->kind == SPT_BOUND_SPHERE;
         const float low = ball ? bound->center[axis] - bound->radius : bound->low[axis];
         const float high = ball ? bound->center[axis] + bound->radius : bound->high[axis];
         const float far =

@@ -42,6 +42,7 @@ SPTI_INLINE void cone_rays(const spti_view *view, size_t count, const float *x, 
 /* ---- Cones ---------------------------------------------------------------------------------- */
 
 SPTI_INLINE void cone_enter(const spti_bundles *bundles, const spt_bound *grown, spti_walk *walk) {
+    const float size = spti_bound_size(grown);
     for (size_t at = 0; at < SPTI_BUNDLES; at += SPT_LANES) {
         interval_ray ray;
         ray.reach = spt_splat(0.0f);
@@ -52,15 +53,15 @@ SPTI_INLINE void cone_enter(const spti_bundles *bundles, const spt_bound *grown,
         }
         ray.length = spt_splat(1.0f);
         spt_wide t_in = spt_load(&walk->t[at]), t_out = spt_load(&bundles->t_max[at]);
-        interval_of_bound(grown, &ray, &t_in, &t_out);
+        interval_of_hull(grown, size, &ray, &t_in, &t_out);
         const spt_mask met = spt_less_equal(t_in, t_out);
         spt_store(&walk->t[at], spt_select(met, t_in, spt_splat(INFINITY)));
         spt_store(&walk->t_out[at], t_out);
     }
 }
 
-/* A field is asked only within its bound: in the stead of a point outside, the bound's nearest
- * point is. */
+/* A field is asked only within its bound, a sphere or the box of any other: in the stead of a point
+ * outside, the bound's nearest point is. */
 SPTI_INLINE void cone_points(const spti_bundles *bundles, unsigned walking, spti_walk *walk) {
     const spt_bound *const bound = walk->bound;
     const spt_wide far = spt_splat(0x1p62f); /* less is safe, and its square does not overflow */
@@ -72,7 +73,7 @@ SPTI_INLINE void cone_points(const spti_bundles *bundles, unsigned walking, spti
             const spt_wide along = spt_mul(t, spt_load(&bundles->direction[axis][at]));
             point[axis] = spt_add(spt_load(&bundles->origin[axis][at]), along);
         }
-        if (bound != NULL && bound->kind == SPT_BOUND_BOX) {
+        if (bound != NULL && bound->kind != SPT_BOUND_SPHERE) {
             for (int axis = 0; axis < 3; ++axis) {
                 const spt_wide within = spt_min(spt_max(point[axis], spt_splat(bound->low[axis])),
                                                 spt_splat(bound->high[axis]));

@@ -123,17 +123,6 @@ void spti_union_add(spti_union *lazy, const spt_rays *rays, size_t first, size_t
     }
 }
 
-void spti_union_enter(spti_union *lazy, const float *starts) {
-    const size_t masks = lazy->listed * (lazy->pool / SPTI_GROUP);
-    memset(lazy->begun, 0, masks * sizeof *lazy->begun);
-    memset(lazy->cut, 0, masks * sizeof *lazy->cut);
-    memset(lazy->inside, 0, masks * sizeof *lazy->inside);
-    for (size_t place = 0; place < lazy->listed; ++place) {
-        spti_union_kernels_of[lazy->isa]->enter(
-            lazy, place, starts != NULL ? starts + place * lazy->pool : NULL);
-    }
-}
-
 /* ---- Empty zones ---------------------------------------------------------------------------- */
 
 static int has(const uint16_t *masks, size_t ray) {

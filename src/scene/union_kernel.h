@@ -49,6 +49,7 @@ SPTI_INLINE void union_begin(spti_union *lazy, size_t window, size_t count) {
 
 SPTI_INLINE void union_enter(spti_union *lazy, size_t place, const float *starts) {
     const spt_bound *const bound = lazy->calls[lazy->list[place]].march.bound;
+    const float size = bound != NULL ? spti_bound_size(bound) : 0.0f;
     for (size_t at = 0; at < spti_union_groups(lazy) * SPTI_GROUP; at += SPT_LANES) {
         spt_wide t_min = spt_load(&spti_union_row(lazy, SPTI_ROW_T_MIN)[at]);
         spt_wide t_max = spt_load(&spti_union_row(lazy, SPTI_ROW_T_MAX)[at]);
@@ -70,7 +71,7 @@ SPTI_INLINE void union_enter(spti_union *lazy, size_t place, const float *starts
             }
             ray.length = spt_load(&spti_union_row(lazy, SPTI_ROW_LENGTH)[at]);
             ray.reach = spt_load(&spti_union_row(lazy, SPTI_ROW_REACH)[at]);
-            interval_of_bound(bound, &ray, &t_min, &t_max);
+            interval_of_bound(bound, size, &ray, &t_min, &t_max);
         }
         const spt_mask met = spt_less_equal(t_min, t_max);
         spt_store(&spti_union_state(lazy, place, SPTI_STATE_KEY)[at],

@@ -5,7 +5,8 @@
 #include <math.h>
 
 #include "../base/arguments.h"
-#include "driver.h"
+#include "../bound/bound_check.h"
+#include "narrow.h"
 
 /* Reads the picked rays of a column, or what stands for an absent one. By memcpy, since values need
  * no alignment. A run of rays is unrolled. */
@@ -73,19 +74,32 @@ void spti_load_chunk(const spt_rays *rays, spti_chunk *chunk, size_t count, size
     for (int slot = 0; slot < SPT_BATCH; ++slot) chunk->array[SPTI_INDEX][slot] = (float)slot;
 }
 
-void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
+void spti_ask_groups(const spt_field *field, size_t n, const float *x, const float *y,
+                     const float *z, float *distance) {
     const size_t whole = (n + SPTI_GROUP - 1) / SPTI_GROUP * SPTI_GROUP;
-    float *const x = chunk->array[SPTI_X], *const y = chunk->array[SPTI_Y];
-    float *const z = chunk->array[SPTI_Z], *const distance = chunk->distance;
-    if (call->field.batch != NULL) {
+    if (field->batch != NULL) {
         for (size_t i = 0; i < whole; ++i) distance[i] = NAN;
-        call->field.batch(call->field.user, whole, x, y, z, distance);
+        field->batch(field->user, whole, x, y, z, distance);
     } else {
-        for (size_t i = 0; i < n; ++i) {
-            distance[i] = call->field.point(call->field.user, x[i], y[i], z[i]);
-        }
+        for (size_t i = 0; i < n; ++i) distance[i] = field->point(field->user, x[i], y[i], z[i]);
         for (size_t i = n; i < whole; ++i) distance[i] = distance[0];
     }
+}
+
+void spti_ask(const spt_field *field, size_t n, float *x, float *y, float *z, float *distance) {
+    if (n == 0) return;
+    for (size_t i = n; i % SPTI_GROUP != 0; ++i) {
+        x[i] = x[n - 1];
+        y[i] = y[n - 1];
+        z[i] = z[n - 1];
+    }
+    spti_ask_groups(field, n, x, y, z, distance);
+}
+
+void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
+    const size_t whole = (n + SPTI_GROUP - 1) / SPTI_GROUP * SPTI_GROUP;
+    spti_ask_groups(&call->field, n, chunk->array[SPTI_X], chunk->array[SPTI_Y],
+                    chunk->array[SPTI_Z], chunk->distance);
     if (call->allowance != NULL) *call->allowance -= (int64_t)n;
     if (call->statistics != NULL) {
         call->statistics->passes += 1;
@@ -243,10 +257,12 @@ void spti_run_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size
         spti_evaluate(call, chunk, count);
         if (fresh) {
             if (flags & SPT_SKIP_START) most_spent += spti_skip_start(call, chunk, count);
+            if (call->turn != NULL) most_spent += call->turn(call, chunk, count);
             start_rays(chunk, count);
         }
         any = call->pass(chunk, &call->march, count, fresh);
         if (fresh && flags != 0) any = apply_start_options(call, chunk, count);
+        if (call->march.between != 0) any = spti_go_to_ends(chunk, count);
         if (call->stop != NULL) any = call->stop(chunk, count);
         if (budget - age - 1 <= most_spent) any |= expire(call, chunk, count, age + 1);
         if (call->allowance != NULL && *call->allowance <= 0) {
@@ -259,10 +275,16 @@ void spti_run_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size
 }
 
 void spti_trace_chunk(const spti_call *call, spti_chunk *chunk, size_t first, size_t window) {
-    const size_t count = pick(&call->rays->active, chunk->picked, first, window);
+    size_t count = pick(&call->rays->active, chunk->picked, first, window);
     if (count == 0) return;
     spti_load_chunk(call->rays, chunk, count, first);
     int any = spti_chunk_kernels_of[call->isa].prepare(chunk, &call->march, count);
+    if (spti_bound_asks(call->march.bound)) { /* only for rays that are alive */
+        size_t brackets = 0;
+        if (any) count = empty_finished(call, chunk, count, first, 0, &brackets);
+        if (count == 0) return;
+        any = spti_narrow_chunk(call, chunk, count);
+    }
     if (call->settings.budget == 0) any |= expire(call, chunk, count, 0);
     spti_run_chunk(call, chunk, count, first, any, 1);
 }

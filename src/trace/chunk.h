@@ -74,7 +74,8 @@ typedef struct spti_chunk {
 typedef struct spti_march {
     float pixel_radius;
     float relaxation, extrapolation, slope_blend, step_cap;
-    float epsilon, size, inverse_lipschitz; /* for the preparation only */
+    float epsilon, size, inverse_lipschitz; /* for the preparation, and the last for candidates */
+    uint32_t between;                       /* SPT_CANDIDATE_* */
     const spt_bound *bound;
 } spti_march;
 

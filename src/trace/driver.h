@@ -17,6 +17,11 @@ typedef void spti_leave_fn(const struct spti_call *call, spti_chunk *chunk,
 /* Finds the rays that are free up to their SPTI_STOP (fates). Returns whether any ray finished. */
 typedef int spti_stop_fn(spti_chunk *chunk, size_t count);
 
+/* Looks at the first samples of a chunk, in chunk->distance, and may replace rays by others that go
+ * on in their stead: with first samples of their own, that count to spti_spent(). Returns the most
+ * evaluations that this took a ray. */
+typedef uint32_t spti_turn_fn(const struct spti_call *call, spti_chunk *chunk, size_t count);
+
 typedef struct spti_call {
     spt_field field;
     spt_bound bound;
@@ -36,7 +41,8 @@ typedef struct spti_call {
     int32_t component;    /* what a hit is said to have hit */
     spti_stop_fn *stop;   /* NULL: rays are traced to their end */
     int64_t *allowance;   /* evaluations until all rays are set aside, with stop; or NULL */
-    void *owner;          /* of leave */
+    spti_turn_fn *turn;   /* or NULL */
+    void *owner;          /* of leave and turn */
 } spti_call;
 
 /* Beside the public outcomes: the ray is not at its end. */
@@ -71,14 +77,17 @@ static inline int spti_enters(const spti_chunk *chunk, size_t slot) {
 
 /* Whether rays spend evaluations beside those of the passes of a chunk. */
 static inline int spti_keeps_spent(const spti_call *call) {
-    return (call->settings.flags & SPT_SKIP_START) != 0 || call->stop != NULL;
+    return (call->settings.flags & SPT_SKIP_START) != 0 || call->stop != NULL || call->turn != NULL;
 }
 
 /* Settles what follows from a call's field, bound, settings, hits, statistics, stop, and rays or
  * one_origin. */
 void spti_call_settle(spti_call *call);
 
-/* Traces the rays first .. first + window - 1, window <= SPT_BATCH. */
+/* Traces the rays first .. first + window - 1, window <= SPT_BATCH: in a chunk of its own, */
+void spti_trace_window(const spti_call *call, size_t first, size_t window);
+
+/* or in one that is there. */
 void spti_trace_chunk(const spti_call *call, spti_chunk *chunk, size_t first, size_t window);
 
 /* The steps of that. Loads the `count` rays first + chunk->picked[i], which ascend; */
@@ -88,6 +97,14 @@ void spti_load_chunk(const spt_rays *rays, spti_chunk *chunk, size_t count, size
  * already. first_pass: 1 for fresh rays, 0 for rays whose points to evaluate are in place. */
 void spti_run_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size_t first, int any,
                     int first_pass);
+
+/* Asks a field for n <= SPT_BATCH points. The arrays are aligned to 64 bytes and hold whole groups;
+ * what the callback does not write is NaN. spti_ask() fills the last group up by its last point, */
+void spti_ask(const spt_field *field, size_t n, float *x, float *y, float *z, float *distance);
+
+/* and here it must be full. */
+void spti_ask_groups(const spt_field *field, size_t n, const float *x, const float *y,
+                     const float *z, float *distance);
 
 /* Asks the callback for n points (rounded up to whole groups, which must be filled) into
  * chunk->distance; what it does not write is NaN. */
@@ -107,6 +124,10 @@ static inline int spti_is_steep(float slope) {
 
 /* Finishes the `count` bracketed rays in the last slots of the chunk. */
 void spti_close_brackets(const spti_call *call, spti_chunk *chunk, size_t count, size_t first);
+
+/* SPT_CANDIDATE_PENUMBRA and _CLOSEST: rays that are about to end as a miss take their last sample
+ * at t_max first. Returns whether any ray is finished. */
+int spti_go_to_ends(spti_chunk *chunk, size_t count);
 
 /* SPT_SKIP_START: walks the rays of the chunk whose sample at t_min is within the tolerance out of
  * it. Returns the most evaluations that this took a ray; each ray's own are its spti_spent(). */

@@ -23,6 +23,8 @@ typedef struct march_constants {
     spti_parameters rule;
     spt_wide pixel_radius, margin;
     spt_mask first;
+    uint32_t between; /* SPT_CANDIDATE_*: of candidates between samples */
+    spt_wide inverse_lipschitz;
 } march_constants;
 
 /* A ray between two samples. */
@@ -66,15 +68,56 @@ SPTI_INLINE spt_mask march_overlap(const march_constants *all, spt_mask mask, sp
     return spti_less_in(mask, spt_add(spt_mul(step, all->margin), floor), spt_add(a, b));
 }
 
-/* Screen-space candidate (Keinert et al. 2014, section 3.2): the least radius over distance from
- * the eye, measured along the whole path, and never divided by zero. */
-SPTI_INLINE void march_candidate(const march_rays *rays, const march_state *ray, spt_mask certified,
-                                 march_audit *audit) {
-    const spt_wide eye = spt_max(spt_add(rays->path, ray->t), rays->epsilon);
-    const spt_wide ratio = spt_div(spt_abs(ray->radius), eye);
+/* Where a ray passes closest to what may lie between a sample and the one before: the spheres
+ * around both meet in a circle, and what is nearer to the ray than its radius is free. A circle
+ * that is not between them says nothing that the samples do not. *back is its distance before the
+ * sample. */
+SPTI_INLINE spt_wide march_closest(const spti_pair *pair, spt_wide radius, spt_wide *back) {
+    const spt_wide zero = spt_splat(0.0f);
+    const spt_wide one = spt_splat(1.0f),
+                   slope = spt_div(spt_sub(pair->after, pair->before), pair->step);
+    /* The slope of a distance bound is at most 1: then nothing overflows. */
+    const spt_wide held = spt_max(spt_min(slope, one), spt_sub(zero, one));
+    const spt_wide bend = spt_mul(held, spt_add(pair->after, pair->before));
+    const spt_wide y = spt_mul(spt_splat(0.5f), spt_add(pair->step, bend));
+    /* The first sample has none before it, and its step is FLT_MIN. */
+    const spt_mask two = spt_less(spt_splat(FLT_MIN), pair->step);
+    const spt_mask between =
+        spt_mask_and(two, spt_mask_and(spt_less(zero, y), spt_less(y, pair->step)));
+    const spt_wide near = spt_select(between, y, zero);
+    const spt_wide rest = spt_max(spt_sub(radius, near), zero);
+    *back = near;
+    return spt_select(between, spt_mul(spt_sqrt(rest), spt_sqrt(spt_add(radius, near))), radius);
+}
+
+/* Takes the point at t, `apart` from any surface, where its ratio is the least so far. */
+SPTI_INLINE void march_compare(const march_constants *all, const march_rays *rays, spt_wide apart,
+                               spt_wide t, spt_mask certified, march_audit *audit) {
+    spt_wide ratio;
+    if (all->between & SPT_CANDIDATE_CLOSEST) {
+        ratio = spt_div(spt_mul(apart, all->inverse_lipschitz), spt_abs(rays->scale));
+    } else {
+        const spt_wide path = all->between != 0 ? spt_splat(0.0f) : rays->path;
+        ratio = spt_div(apart, spt_max(spt_add(path, t), rays->epsilon));
+    }
     const spt_mask nearer = spt_mask_and(certified, spt_less(ratio, audit->candidate_ratio));
     audit->candidate_ratio = spt_select(nearer, ratio, audit->candidate_ratio);
-    audit->candidate_t = spt_select(nearer, ray->t, audit->candidate_t);
+    audit->candidate_t = spt_select(nearer, t, audit->candidate_t);
+}
+
+/* Screen-space candidate (Keinert et al. 2014, section 3.2): the least radius over distance from
+ * the eye, measured along the whole path, and never divided by zero. Or, between the samples as
+ * well, over the distance from the ray's origin, or over none. */
+SPTI_INLINE void march_candidate(const march_constants *all, const march_rays *rays,
+                                 const spti_pair *pair, const march_state *ray, spt_mask certified,
+                                 march_audit *audit) {
+    const spt_wide radius = spt_abs(ray->radius);
+    if (all->between != 0) {
+        spt_wide back;
+        const spt_wide apart = march_closest(pair, radius, &back);
+        march_compare(all, rays, apart, spt_sub(ray->t, back), certified, audit);
+    }
+    march_compare(all, rays, radius, ray->t, certified, audit);
 }
 
 /* The Lipschitz audit: the slope between two samples that rounding cannot explain. Infinite values
@@ -204,6 +247,7 @@ SPTI_INLINE void march_leap(const march_constants *all, const march_rays *rays, 
     const spt_mask ahead = spti_less_in(spti_mask_not(sample->settled), ray->t, ray->pending_t);
     const spt_mask leaps = march_overlap(all, ahead, ray->radius, radius, leap, floor);
     spti_pair pair = {spt_max(leap, spt_splat(FLT_MIN)), ray->radius, radius};
+    const spti_pair leapt = pair;
     if (wants & SPTI_WANT_SLOPE) march_slope(&pair, floor, leaps, audit);
     if (!rule_blends) {
         pair.step = spt_select(leaps, pair.step, sample->pair.step);
@@ -218,7 +262,7 @@ SPTI_INLINE void march_leap(const march_constants *all, const march_rays *rays, 
         spti_less_in(leaps, ray->radius, march_tolerance(all, rays, ray->t, floor));
     sample->hit = spt_mask_or(sample->hit, close);
     sample->settled = spt_mask_or(sample->settled, close);
-    if (wants & SPTI_WANT_CANDIDATE) march_candidate(rays, ray, leaps, audit);
+    if (wants & SPTI_WANT_CANDIDATE) march_candidate(all, rays, &leapt, ray, leaps, audit);
 }
 
 SPTI_INLINE void march_load_state(const spti_chunk *chunk, size_t at, spt_wide scale,
@@ -273,7 +317,7 @@ SPTI_INLINE void march_vector(spti_chunk *chunk, const march_constants *all, siz
         const spt_mask number = spt_mask_and(sample.legal, sample.moved);
         audit.candidate_t = march_load(chunk, SPTI_CANDIDATE_T, at);
         audit.candidate_ratio = march_load(chunk, SPTI_CANDIDATE_RATIO, at);
-        march_candidate(&rays, &ray, number, &audit);
+        march_candidate(all, &rays, &sample.pair, &ray, number, &audit);
     }
     if (rule_pending) march_leap(all, &rays, wants, &sample, &ray, &audit);
 
@@ -327,7 +371,9 @@ SPTI_INLINE int march_pass(spti_chunk *chunk, const spti_march *march, size_t co
                                   spt_splat(march->slope_blend), spt_splat(march->step_cap)},
                                  spt_splat(march->pixel_radius),
                                  spt_splat(1.0f + SPTI_FLOOR),
-                                 spt_mask_splat(first)};
+                                 spt_mask_splat(first),
+                                 march->between,
+                                 spt_splat(march->inverse_lipschitz)};
     unsigned any = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         spti_fates fates = {0, 0, 0, 0, 0, 0, 0};

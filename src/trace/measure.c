@@ -22,6 +22,9 @@ static void spread(measure_points *points, const spt_bound *bound) {
     if (bound != NULL) spt_bound_extent(bound, low, high);
     for (int axis = 0; axis < 3; ++axis) {
         double part = 0.5;
+        /* A volume may have no end on one side, or on both. */
+        if (!spti_finite(low[axis])) low[axis] = spti_finite(high[axis]) ? high[axis] - 2 : -1;
+        if (!spti_finite(high[axis])) high[axis] = low[axis] + 2;
         for (int i = 0; i < SPT_BATCH; ++i) {
             part += step[axis];
             if (part >= 1) part -= 1;

@@ -8,7 +8,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "../bound/interval_kernel.h"
+#include "../bound/volume_kernel.h"
 #include "ray_kernel.h"
 
 SPTI_INLINE spt_mask prepare_finite(spt_wide a) {
@@ -129,14 +129,14 @@ SPTI_INLINE spt_wide prepare_enters(spt_wide own, spt_wide t, spt_wide tolerance
     return spt_select(enters, spt_splat(1.0f), spt_splat(0.0f));
 }
 
-SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, size_t at,
+SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, float size, size_t at,
                                 unsigned shift, spti_fates *fates) {
     prepare_rays rays;
     prepare_load(chunk, at, &rays);
     const spt_wide unit = prepare_units(&rays);
     const spt_wide own = rays.t_min;
     if (march->bound != NULL) {
-        interval_of_bound(march->bound, &rays.ray, &rays.t_min, &rays.t_max);
+        interval_of_bound(march->bound, size, &rays.ray, &rays.t_min, &rays.t_max);
     }
     const spt_mask missed = spt_mask_and_not(rays.good, spt_less_equal(rays.t_min, rays.t_max));
     const spt_mask traced = spt_mask_and_not(rays.good, missed);
@@ -156,17 +156,19 @@ SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, size
         /* Until a probe is kept nobody else looks there. */
         spt_store(&chunk->array[SPTI_PENDING_VALUE][at],
                   prepare_enters(own, rays.t_min, tolerance));
+        if (spti_bound_asks(march->bound)) spt_store(&chunk->array[SPTI_PROBE][at], own);
     }
 }
 
 SPTI_INLINE int prepare_pass(spti_chunk *chunk, const spti_march *march, size_t count) {
+    const float size = march->bound != NULL ? spti_bound_size(march->bound) : 0.0f;
     unsigned any = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         spti_fates fates = {0, 0, 0, 0, 0, 0, 0};
         const size_t start = group * SPTI_GROUP, left = count - start;
         /* The whole group: its padding goes where the ray goes that it repeats. */
         for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
-            prepare_vector(chunk, march, start + shift, shift, &fates);
+            prepare_vector(chunk, march, size, start + shift, shift, &fates);
         }
         if (left < SPTI_GROUP) fates.finished &= (uint16_t)((1u << left) - 1u);
         chunk->fates[group] = fates;

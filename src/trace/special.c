@@ -5,50 +5,26 @@
 #define SPT_LANES 1
 #include <math.h>
 
-#include "driver.h"
-#include "ray_kernel.h"
-
-/* The tolerance at t for the ray in a slot, in t. */
-static float tolerance_at(const spti_call *call, const spti_chunk *chunk, size_t slot, float t) {
-    const float floor = ray_floor(chunk->array[SPTI_FLOOR_AT_0][slot], t);
-    return ray_tolerance(chunk->array[SPTI_EPSILON][slot], call->march.pixel_radius,
-                         chunk->array[SPTI_PATH][slot], floor, t);
-}
-
-/* Puts the point at t of the ray in slot `from` into place `to` of those to evaluate. */
-static void place_point(spti_chunk *chunk, size_t from, size_t to, float t) {
-    for (int axis = 0; axis < 3; ++axis) {
-        chunk->array[SPTI_X + axis][to] = ray_point(chunk, axis, from, t);
-    }
-}
-
-/* Fills the last group with copies of the first point. */
-static void pad_points(spti_chunk *chunk, size_t count) {
-    for (size_t slot = count; slot % SPTI_GROUP != 0; ++slot) {
-        for (int axis = 0; axis < 3; ++axis) {
-            chunk->array[SPTI_X + axis][slot] = chunk->array[SPTI_X + axis][0];
-        }
-    }
-}
+#include "slot.h"
 
 static int within_tolerance(const spti_call *call, const spti_chunk *chunk, size_t slot) {
     const float radius = chunk->array[SPTI_VALUE][slot] * chunk->array[SPTI_SCALE][slot];
     const float t = chunk->array[SPTI_T][slot];
-    return fabsf(radius) < tolerance_at(call, chunk, slot, t);
+    return fabsf(radius) < spti_slot_tolerance(call, chunk, slot, t);
 }
 
 /* Makes one step of a ray that is within the tolerance. Returns whether there is a sample to ask
  * for, in place `to`; otherwise nothing is ahead, or the budget ends here. */
 static int walk(const spti_call *call, spti_chunk *chunk, size_t slot, size_t to) {
     const float t = chunk->array[SPTI_T][slot];
-    const float next = t + tolerance_at(call, chunk, slot, t);
+    const float next = t + spti_slot_tolerance(call, chunk, slot, t);
     if (!(next > t) || !(next <= chunk->array[SPTI_T_MAX][slot])) {
         chunk->array[SPTI_VALUE][slot] = INFINITY; /* nothing ahead: a miss */
         return 0;
     }
     if (spti_spent(chunk, slot) + 1 >= call->settings.budget) return 0; /* 1 at t_min */
     chunk->array[SPTI_T][slot] = chunk->array[SPTI_PROBE][slot] = next;
-    place_point(chunk, slot, to, next);
+    spti_slot_point(chunk, slot, to, next);
     return 1;
 }
 
@@ -67,7 +43,7 @@ uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count)
             if (walk(call, chunk, walking[i], asked)) walking[asked++] = walking[i];
         }
         if (asked == 0) break;
-        pad_points(chunk, asked);
+        spti_pad_points(chunk, asked);
         spti_evaluate(call, chunk, asked);
         for (size_t i = 0; i < asked; ++i) {
             const size_t slot = walking[i];
@@ -77,13 +53,30 @@ uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count)
         }
         walkers = still;
     }
-    for (size_t slot = count; slot % SPTI_GROUP != 0; ++slot) {
-        for (size_t i = 0; i < call->array_count; ++i) {
-            chunk->array[call->arrays[i]][slot] = chunk->array[call->arrays[i]][0];
-        }
-    }
+    spti_pad_rays(call, chunk, count);
     memcpy(chunk->distance, chunk->array[SPTI_VALUE], sizeof chunk->distance);
     return steps;
+}
+
+/* ---- The end of a ray ------------------------------------------------------------------------ */
+
+int spti_go_to_ends(spti_chunk *chunk, size_t count) {
+    unsigned any = 0;
+    for (size_t slot = 0; slot < count; ++slot) {
+        spti_fates *const fates = &chunk->fates[slot / SPTI_GROUP];
+        const uint16_t bit = (uint16_t)(1u << slot % SPTI_GROUP);
+        const float t_max = chunk->array[SPTI_T_MAX][slot];
+        const int missed = (fates->missed & bit) != 0 && (fates->hit & bit) == 0;
+        /* Farther away nothing is worth a sample. */
+        if (missed && chunk->array[SPTI_T][slot] < t_max && t_max <= 0x1p62f) {
+            fates->missed &= (uint16_t)~bit;
+            fates->finished &= (uint16_t)~bit;
+            chunk->array[SPTI_PROBE][slot] = t_max;
+            spti_slot_point(chunk, slot, slot, t_max);
+        }
+        any |= fates->finished;
+    }
+    return any != 0;
 }
 
 /* ---- Brackets ------------------------------------------------------------------------------- */
@@ -133,7 +126,7 @@ static SPTI_NOINLINE void leave(const spti_call *call, spti_chunk *chunk, size_t
 static int goes_on(const spti_call *call, spti_chunk *chunk, size_t slot, size_t first,
                    uint32_t turn, float t) {
     const float a = chunk->array[SPTI_T][slot], b = *bracket_end(chunk, slot);
-    if (b - a <= tolerance_at(call, chunk, slot, a) || !(t > a && t < b) ||
+    if (b - a <= spti_slot_tolerance(call, chunk, slot, a) || !(t > a && t < b) ||
         turn == SPTI_BRACKET_EVALUATIONS) {
         leave(call, chunk, slot, first, SPT_HIT);
         return 0;
@@ -152,7 +145,7 @@ static int narrow(const spti_call *call, spti_chunk *chunk, size_t slot, size_t 
                   float value) {
     const float radius = value * chunk->array[SPTI_SCALE][slot];
     const int number = value >= -FLT_MAX;
-    const int close = fabsf(radius) < tolerance_at(call, chunk, slot, t);
+    const int close = fabsf(radius) < spti_slot_tolerance(call, chunk, slot, t);
     if (number && !close && radius < 0.0f) {
         *bracket_end(chunk, slot) = t;
         *bracket_end_value(chunk, slot) = value;
@@ -182,9 +175,9 @@ void spti_close_brackets(const spti_call *call, spti_chunk *chunk, size_t count,
          * points are not needed, so that nothing is lost where the two meet. */
         for (size_t i = 0; i < asked; ++i) {
             const size_t slot = SPTI_ROOM - 1u - open[i];
-            place_point(chunk, slot, i, *bracket_sample(chunk, slot));
+            spti_slot_point(chunk, slot, i, *bracket_sample(chunk, slot));
         }
-        pad_points(chunk, asked);
+        spti_pad_points(chunk, asked);
         spti_evaluate(call, chunk, asked);
         for (size_t i = 0; i < asked; ++i) {
             const size_t slot = SPTI_ROOM - 1u - open[i];

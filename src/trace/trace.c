@@ -3,10 +3,15 @@
  * The public door: checks the arguments, settles what the call needs, and hands the rays over in
  * chunks. */
 #include "../base/arguments.h"
+#include "../base/columns.h"
 #include "../bound/bound_check.h"
 #include "driver.h"
 
-enum { FIELD_FLAGS = SPT_FIELD_CONVEX, SETTINGS_FLAGS = SPT_SKIP_START | SPT_STOP_INSIDE };
+enum {
+    FIELD_FLAGS = SPT_FIELD_CONVEX,
+    BETWEEN = SPT_CANDIDATE_PENUMBRA | SPT_CANDIDATE_CLOSEST, /* one of them at most */
+    SETTINGS_FLAGS = SPT_SKIP_START | SPT_STOP_INSIDE | BETWEEN | SPT_CHECK_CONVEX
+};
 
 int spti_field_copy(spt_field *to, spt_bound *bound, const spt_field *from) {
     *to = spt_field_default();
@@ -22,6 +27,7 @@ int spti_settings_copy(spt_settings *to, const spt_settings *from) {
     to->struct_size = sizeof *to;
     if (from == NULL || !spti_copy_sized(to, from, sizeof *to)) return 0;
     if (to->method == NULL || (to->flags & ~(uint32_t)SETTINGS_FLAGS) != 0) return 0;
+    if ((to->flags & BETWEEN) == BETWEEN) return 0;
     if (to->max_lanes != 0 && to->max_lanes != 1 && to->max_lanes != 4 && to->max_lanes != 8 &&
         to->max_lanes != 16) {
         return 0;
@@ -33,13 +39,6 @@ int spti_settings_copy(spt_settings *to, const spt_settings *from) {
            spti_within(to->slope_blend, 0.0f, 1.0f) && spti_within(to->step_cap, 1.0f, 100.0f);
 }
 
-/* Whether count values of this stride can lie in memory at all. */
-static int fits(ptrdiff_t stride, size_t count) {
-    const size_t most = PTRDIFF_MAX;
-    const size_t step = stride < 0 ? (size_t)0 - (size_t)stride : (size_t)stride;
-    return count <= most && step <= most && (step == 0 || count - 1 <= (most - 4) / step);
-}
-
 static int check_rays(const spt_rays *rays, size_t count) {
     const spt_column *const columns[] = {
         &rays->origin[0],    &rays->origin[1],    &rays->origin[2], &rays->direction[0],
@@ -47,7 +46,7 @@ static int check_rays(const spt_rays *rays, size_t count) {
         &rays->path,         &rays->active};
     for (size_t i = 0; i < sizeof columns / sizeof *columns; ++i) {
         if (columns[i]->first == NULL && i < 6) return 0;
-        if (columns[i]->first != NULL && !fits(columns[i]->stride, count)) return 0;
+        if (!spti_column_fits(columns[i], count)) return 0;
     }
     return 1;
 }
@@ -57,9 +56,7 @@ static int check_hits(const spt_hits *hits, size_t count) {
                                      &hits->evaluations, &hits->flags,           &hits->component,
                                      &hits->candidate_t, &hits->candidate_ratio, &hits->fallbacks};
     for (size_t i = 0; i < sizeof sinks / sizeof *sinks; ++i) {
-        if (sinks[i]->first == NULL) continue;
-        if (sinks[i]->stride == 0 && count > 1) return 0;
-        if (!fits(sinks[i]->stride, count)) return 0;
+        if (!spti_sink_fits(sinks[i], count)) return 0;
     }
     return 1;
 }
@@ -93,7 +90,9 @@ static int have_one_origin(const spt_rays *rays) {
  * moved. */
 static void settle_arrays(spti_call *call) {
     const spt_method *method = call->settings.method;
-    if (call->rays != NULL) call->one_origin = have_one_origin(call->rays);
+    if (call->rays != NULL) {
+        call->one_origin = call->turn == NULL && have_one_origin(call->rays);
+    }
     call->array_count = 0;
     for (int array = 0; array < SPTI_ARRAYS; ++array) {
         int held = 1;
@@ -102,7 +101,8 @@ static void settle_arrays(spti_call *call) {
         if (array == SPTI_MEMORY) held = method->memory > 0;
         if (array == SPTI_PENDING_T) held = method->pending || method->memory > 1;
         if (array == SPTI_PENDING_VALUE) {
-            held = method->pending || (call->settings.flags & SPT_SKIP_START) != 0;
+            held = method->pending || (call->settings.flags & SPT_SKIP_START) != 0 ||
+                   call->turn != NULL;
         }
         if (array == SPTI_SPENT) held = spti_keeps_spent(call);
         if (array == SPTI_STOP) held = call->stop != NULL;
@@ -127,6 +127,7 @@ static void settle_march(spti_call *call) {
     call->march.epsilon = settings->epsilon;
     call->march.size = settings->size > extent ? settings->size : extent;
     call->march.inverse_lipschitz = 1.0f / call->field.lipschitz;
+    call->march.between = (call->wants & SPTI_WANT_CANDIDATE) ? settings->flags & BETWEEN : 0;
     call->march.bound = bound;
 }
 
@@ -139,7 +140,7 @@ void spti_call_settle(spti_call *call) {
 }
 
 /* The chunk's frame is left before the public door's: no more than one is on the stack. */
-static void trace_chunk(const spti_call *call, size_t first, size_t window) {
+SPTI_NOINLINE void spti_trace_window(const spti_call *call, size_t first, size_t window) {
     SPTI_ALIGNED(64) float arrays[SPTI_STOP][SPTI_ROOM]; /* all but that, the last */
     spti_chunk chunk;
     chunk.array = arrays;
@@ -165,7 +166,7 @@ spt_status spt_trace(const spt_field *field, const spt_settings *settings, size_
     if (statistics != NULL) statistics->lanes = (uint32_t)spti_isa_lanes(call.isa);
     for (size_t first = 0; first < count; first += SPT_BATCH) {
         const size_t left = count - first;
-        trace_chunk(&call, first, left < SPT_BATCH ? left : SPT_BATCH);
+        spti_trace_window(&call, first, left < SPT_BATCH ? left : SPT_BATCH);
     }
     return SPT_OK;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Row Q20: intervals of rays in bounding volumes against the same in double: never narrower than the
- * true one, edges, rims and grazing rays included, and no wider than bound.h says. */
+ * Row Q20: intervals of rays in spheres and boxes against the same in double: never narrower than
+ * the true one, edges, rims and grazing rays included, and no wider than bound.h says. */
 #include <spheretrace/bound.h>
 #include <spheretrace/trace.h>
 

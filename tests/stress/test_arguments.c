@@ -95,7 +95,8 @@ static void F10c_numbers_and_flags(void) {
     static call self;
     for (stress_way way = stress_ways(STRESS_CONVEX); stress_next(&way);) {
         for (int i = 0; i < 11; ++i) REFUSE(self.settings.max_lanes = lanes[i]);
-        for (int bit = 2; bit < 32; ++bit) REFUSE(self.settings.flags = (uint32_t)1 << bit);
+        for (int bit = 5; bit < 32; ++bit) REFUSE(self.settings.flags = (uint32_t)1 << bit);
+        REFUSE(self.settings.flags = SPT_CANDIDATE_PENUMBRA | SPT_CANDIDATE_CLOSEST);
         for (int bit = 1; bit < 32; ++bit) REFUSE(self.field.flags |= (uint32_t)1 << bit);
         if (way.method == spt_convex()) REFUSE(self.field.flags = 0);
     }

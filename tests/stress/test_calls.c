@@ -130,7 +130,7 @@ static void F2_bad_volumes(void) {
         bound.low[axis] = nextafterf(bound.high[axis], FLT_MAX);
         refuse_bound(&bound);
     }
-    static const uint32_t kinds[] = {0, 3, 0xffffffffu};
+    static const uint32_t kinds[] = {0, 10, 0xffffffffu};
     for (int i = 0; i < 3; ++i) {
         bound = box;
         bound.kind = kinds[i];

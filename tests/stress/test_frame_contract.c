@@ -55,7 +55,7 @@ static void F10p_frame_scene_and_settings(void) {
         DOOR_REFUSE(doors, base->frame.settings.epsilon = 0.0f);
         DOOR_REFUSE(doors, base->frame.settings.pixel_radius = -1.0f);
         DOOR_REFUSE(doors, base->frame.settings.max_lanes = 3);
-        DOOR_REFUSE(doors, base->frame.settings.flags = 4);
+        DOOR_REFUSE(doors, base->frame.settings.flags = 32);
         DOOR_REFUSE(DOORS_THAT_TRACE, door.statistics.struct_size = 0);
     }
 }

@@ -31,8 +31,10 @@ static stress_case scene(int index, uint32_t *selection) {
     static const stress_sphere unit = {{0.0f, 0.0f, 0.0f}, 1.0f},
                                tiny = {{0.0f, 0.0f, 1e-17f}, 1e-18f};
     static const stress_sphere ahead = {{0.2f, -0.1f, 10.0f}, 1.0f};
-    static const spt_bound box = {sizeof(spt_bound),   SPT_BOUND_BOX,      {0.0f, 0.0f, 0.0f}, 0.0f,
-                                  {-2.0f, 0.0f, 8.0f}, {2.0f, 2.0f, 12.0f}};
+    static const spt_bound box = {.struct_size = sizeof(spt_bound),
+                                  .kind = SPT_BOUND_BOX,
+                                  .low = {-2.0f, 0.0f, 8.0f},
+                                  .high = {2.0f, 2.0f, 12.0f}};
     static const float zero = 0.0f;
     stress_case what = stress_case_of(stress_sphere_distance, &ahead);
     *selection = STRESS_CONVEX;

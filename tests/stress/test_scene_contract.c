@@ -202,7 +202,7 @@ static void F10j_scene_numbers_and_flags(void) {
     const float nan = stress_nan(), infinity = stress_infinity();
     for (FOR_EACH_WAY) {
         for (int i = 0; i < 9; ++i) REFUSE_SCENE(self.settings.max_lanes = lanes[i]);
-        for (int bit = 2; bit < 32; ++bit) REFUSE_SCENE(self.settings.flags = (uint32_t)1 << bit);
+        for (int bit = 5; bit < 32; ++bit) REFUSE_SCENE(self.settings.flags = (uint32_t)1 << bit);
         REFUSE_SCENE(self.settings.epsilon = nan);
         REFUSE_SCENE(self.settings.pixel_radius = -1.0f);
         REFUSE_SCENE(self.settings.size = infinity);
@@ -218,7 +218,7 @@ static void F10j_scene_numbers_and_flags(void) {
         REFUSE_SCENE(self.world.bounds[0].center[1] = nan);
         REFUSE_SCENE(self.world.bounds[1].low[0] = infinity);
         REFUSE_SCENE(self.world.bounds[1].low[2] = self.world.bounds[1].high[2] + 1.0f);
-        REFUSE_SCENE(self.world.bounds[1].kind = 7);
+        REFUSE_SCENE(self.world.bounds[1].kind = 77);
         REFUSE_SCENE(self.world.bounds[1].struct_size = 0);
         /* One component that is not declared convex has no licence for the secant. */
         REFUSE_SCENE((self.settings.method = spt_convex(), self.world.fields[2].flags = 0));
