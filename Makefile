@@ -170,10 +170,10 @@ $B/examples/scenes/%.o: examples/scenes/%.c $B/setup
 	$(Q)$(COMPILE) $(SCENE_MISSING) $(CFLAGS) $(KEEP) -c $< -o $@
 
 # Programs of one idea each; what they share is linked as far as they need it.
-PROGRAMS := one_ray batch_callback one_frame methods_compared progressive shadow_pass occlusion_pass \
-            render
+PROGRAMS := one_ray batch_callback one_frame glass_ball methods_compared progressive shadow_pass \
+            occlusion_pass path_tracer whitted figures render
 # Those that only say whether all is well when run without arguments.
-CHECKED := one_ray batch_callback one_frame methods_compared progressive shadow_pass occlusion_pass
+CHECKED := $(filter-out render,$(PROGRAMS))
 SHARED_SOURCES := $(filter-out $(PROGRAMS:%=examples/%.c),$(wildcard examples/*.c))
 OIIO ?= $(shell pkg-config --exists OpenImageIO 2>/dev/null && \
           command -v $(firstword $(CXX)) >/dev/null 2>&1 && echo 1 || echo 0)
@@ -206,12 +206,16 @@ $(PROGRAMS:%=$B/%$(EXE)): $B/%$(EXE): $B/examples/%.o $B/examples/shared.a $(SCE
 demo: $B/render$(EXE)
 	$(RUN) $B/render$(EXE) --gallery $B/gallery
 
-gallery: $(patsubst %,$B/%$(EXE),render progressive shadow_pass occlusion_pass)
+gallery: $(patsubst %,$B/%$(EXE),render progressive shadow_pass occlusion_pass path_tracer whitted \
+                  figures)
 	$(RUN) $B/render$(EXE) --gallery $B/gallery --large
 	$(RUN) $B/progressive$(EXE) primitives $B/gallery/progressive_primitives.png
 	$(RUN) $B/progressive$(EXE) mandelbulb $B/gallery/progressive_mandelbulb.png
 	$(RUN) $B/shadow_pass$(EXE) $B/gallery/shadow_pass.png
 	$(RUN) $B/occlusion_pass$(EXE) $B/gallery/occlusion_pass.png
+	$(RUN) $B/figures$(EXE) $B/gallery
+	$(RUN) $B/path_tracer$(EXE) $B/gallery/path_tracer.png
+	$(RUN) $B/whitted$(EXE) $B/gallery
 
 # ---- Tests --------------------------------------------------------------------------------------
 

@@ -17,6 +17,7 @@
 #include "scene_soft.h"
 #include "scene_deformed.h"
 #include "scene_arches.h"
+#include "scene_textured.h"
 
 #undef PART
 #undef PART_TABLE

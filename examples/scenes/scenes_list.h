@@ -21,6 +21,10 @@
 #include "scene_soft.h"
 #include "scene_deformed.h"
 #include "scene_arches.h"
+#include "scene_jewel.h"
+#include "scene_city.h"
+#include "scene_textured.h"
+#include "scene_glass.h"
 
 #undef SCENE
 #undef SCENE_BLOCKS
