@@ -259,7 +259,7 @@ check: need_cxx $B/check$(EXE) $B/headers.ok $(if $(CXX_HERE),$B/exceptions$(EXE
 	@sh tests/readme.sh
 	@RUN='$(RUN)' EXE='$(EXE)' sh tests/render.sh $B
 	$(if $(CXX_HERE),@$(RUN) $B/exceptions$(EXE))
-	@$(RUN) $B/check$(EXE)
+	@sh tests/halves.sh $(RUN) $B/check$(EXE)
 
 # ---- Benches ------------------------------------------------------------------------------------
 
@@ -268,6 +268,8 @@ BENCH_PLAIN := $(filter-out tests/bench/scalar_loop.c tests/bench/peak_lanes.c,\
 BENCH_OBJECTS := $(BENCH_PLAIN:%.c=$B/%.o) $B/tests/bench/scalar_loop.o \
                  $(SCENE_LANES:%=$B/tests/bench/peak_lanes_%.o)
 FRAME_SOURCES := $(wildcard tests/bench/frame/*.c)
+KEINERT_SOURCES := $(wildcard tests/bench/keinert/*.c) tests/bench/frame/frame_picture.c \
+                   tests/oracle/listings.c
 PEERS_SOURCES := $(wildcard tests/bench/peers/*.c) tests/bench/frame/frame_picture.c
 # The scalar loop that the driver is measured against gets all that the machine has, and so do the
 # callbacks that Embree calls.
@@ -303,6 +305,11 @@ $B/frame_bench$(EXE): $(FRAME_SOURCES:%.c=$B/%.o) $B/tests/bench/bench.o \
 	$(call SAY,$@)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -pthread -o $@
 
+$B/keinert_bench$(EXE): $(KEINERT_SOURCES:%.c=$B/%.o) $B/tests/bench/bench.o \
+                        $B/tests/bench/truth.o $B/examples/shared.a $(SCENES) $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(EXAMPLE_LINK) $(CFLAGS) $(LDFLAGS) $^ $(OIIO_LIBS) -lm -pthread -o $@
+
 $B/peers_bench$(EXE): $(PEERS_SOURCES:%.c=$B/%.o) $B/tests/bench/bench.o $(SCENES) $(STATIC)
 	$(call SAY,$@)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lembree3 -lm -o $@
@@ -313,7 +320,7 @@ need_embree:
 	  [ "$$SPT_REQUIRE" != 1 ]; }
 
 # QUICK=1: smaller pictures and fewer rounds.
-BENCHES := driver_bench frame_bench $(if $(filter 1,$(EMBREE)),peers_bench)
+BENCHES := driver_bench frame_bench keinert_bench $(if $(filter 1,$(EMBREE)),peers_bench)
 bench: need_embree $(BENCHES:%=$B/%$(EXE))
 	@mkdir -p $B/bench
 	@for program in $(BENCHES); do \

@@ -5,7 +5,7 @@
  *     static void A1_nan_beyond_z5(void) { CHECK(...); }
  *     void suite_callback_values(void) { RUN(A1_nan_beyond_z5); }
  * `build/check A1 Q shapes` runs the tests whose names begin with A1 or with Q, and all of the
- * suite shapes; a word that finds no test is a failure. */
+ * suite shapes; a word that finds no test is a failure. `build/check 1/2` runs every second one. */
 #ifndef TESTS_CHECK_H
 #define TESTS_CHECK_H
 

@@ -16,6 +16,8 @@ static struct {
     char **filters;
     int filter_count;
     char used[most_filters]; /* filters that found a test */
+    int part, parts;         /* every parts-th test only, from the part-th on */
+    int seen;                /* tests that the filters want */
     const char *suite;
     int passed, failed, skipped;
     int failures; /* of the running test */
@@ -38,6 +40,7 @@ static int wanted(const char *name) {
 
 void check_run(const char *name, void (*test)(void)) {
     if (!wanted(name)) return;
+    if (state.seen++ % state.parts != state.part - 1) return;
     state.failures = 0;
     state.skip = 0;
     state.random = seed;
@@ -113,8 +116,11 @@ int check_same_bits(float a, float b) {
 }
 
 int main(int count, char **arguments) {
-    state.filters = arguments + 1;
-    state.filter_count = count - 1 < most_filters ? count - 1 : most_filters;
+    const int divided = count > 1 && sscanf(arguments[1], "%d/%d", &state.part, &state.parts) == 2;
+    if (!divided || state.part < 1 || state.parts < state.part) state.part = state.parts = 1;
+    state.filters = arguments + 1 + divided;
+    state.filter_count = count - 1 - divided;
+    if (state.filter_count > most_filters) state.filter_count = most_filters;
     printf("random numbers from seed %d\n", seed);
 #define SUITE(name) \
     state.suite = #name; \
@@ -129,5 +135,5 @@ int main(int count, char **arguments) {
     printf("%d passed, %d failed", state.passed, state.failed);
     if (state.skipped != 0) printf(", %d skipped", state.skipped);
     printf("\n");
-    return state.failed != 0 || state.passed + state.skipped == 0;
+    return state.failed != 0 || (state.parts == 1 && state.passed + state.skipped == 0);
 }

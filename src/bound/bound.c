@@ -50,10 +50,11 @@ void spti_bound_interval(const spt_bound *copy, const float origin[3], const flo
     float from = t_min * power, to = t_max * power;
     interval_of_bound(copy, spti_bound_size(copy), &ray, &from, &to);
     if (spti_bound_asks(copy) && from <= to) narrow(copy, &ray, &from, &to);
-    const int inside = from <= to && from < INFINITY; /* what is at infinity is nowhere */
     /* Scaling loses bits of denormal numbers, and range at its ends. */
-    *t_in = inside ? spt_max(from * unit, t_min) : INFINITY;
-    *t_out = inside ? spt_min(to * unit, t_max) : -INFINITY;
+    const float first = spt_max(from * unit, t_min), last = spt_min(to * unit, t_max);
+    const int inside = from <= to && first <= last && first < INFINITY; /* not at infinity */
+    *t_in = inside ? first : INFINITY;
+    *t_out = inside ? last : -INFINITY;
 }
 
 spt_status spt_bound_interval(const spt_bound *bound, const float origin[3],

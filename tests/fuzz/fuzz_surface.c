@@ -13,6 +13,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,7 +21,10 @@
 fuzz_failed_fn *fuzz_failed;
 
 void fuzz_fail(const char *condition, const char *file, int line) {
-    if (fuzz_failed == NULL) abort();
+    if (fuzz_failed == NULL) {
+        fprintf(stderr, "%s:%d: %s\n", file, line, condition);
+        abort();
+    }
     fuzz_failed(condition, file, line);
 }
 
