@@ -217,13 +217,15 @@ enum {
     /* What the candidate of a ray is (at most one of the two; neither: as spt_hits says). Both look
      * between the samples, too: the spheres of two neighbours meet in a circle, whose radius is a
      * lower bound of the distance to any surface there, and exact for one that touches it. A ray
-     * that hits nothing takes one more sample, at t_max (where that is below 2^62 in world length
-     * or so; behind that, nothing counts), so that the bound holds for all of it. Of a field with a
-     * bound only the way inside it counts, up to its end.
-     * PENUMBRA: the least of that distance over t |direction|, the tangent of the angle by which
-     *   the ray misses a surface as seen from its own origin, whatever its path; see spt_penumbra()
-     *   (surface.h)
-     * CLOSEST: the least of that distance, world length, and where the ray passes closest */
+     * that hits nothing takes one more sample, at t_max, if the budget and a t_max below 2^62 in
+     * world length (or so) allow; the outcome is that without it. Of a field with a bound only the
+     * way inside it counts. In frames cones and culling leave out what they pass: use
+     * SPT_FRAME_NO_CONES | SPT_FRAME_NO_CULLING.
+     * PENUMBRA: the least of that distance over t |direction|, an estimate of the tangent of the
+     *   angle by which the ray misses a surface as seen from its own origin, whatever its path; see
+     *   spt_penumbra() (surface.h)
+     * CLOSEST: the least of that distance, world length, a lower bound; and where the ray passes
+     *   closest. With the rules' default numbers it is 0.9 of the true distance on average */
     SPT_CANDIDATE_PENUMBRA = 1u << 2,
     SPT_CANDIDATE_CLOSEST = 1u << 3,
     /* Read by spt_trace_convex() only: each ray from inside checks what it relies on. */

@@ -32,6 +32,7 @@ typedef struct collide_call {
 typedef struct collide_window {
     SPTI_ALIGNED(64) float x[SPT_BATCH], y[SPT_BATCH], z[SPT_BATCH], distance[SPT_BATCH];
     size_t first, count;
+    float radius[SPT_BATCH];
     float half[SPT_BATCH];  /* of the axis; -1: no body */
     float reach[SPT_BATCH]; /* largest magnitude in it */
     float bound[SPT_BATCH]; /* no surface is nearer to the axis; +infinity where none is known */
@@ -280,6 +281,7 @@ static void begin_window(const collide_call *call, size_t first, size_t count,
         const float reach = reach_of(&axis);
         const int good = reach <= FLT_MAX && spti_within(radius, 0.0f, FLT_MAX);
         /* Not less than it is. */
+        window->radius[body] = radius;
         window->half[body] = good ? (float)(length_of(&axis) * (0.5 + 0x1p-23)) : -1.0f;
         window->reach[body] = reach;
         window->bound[body] = good && call->most == 0 ? -INFINITY : INFINITY;
@@ -367,8 +369,8 @@ static void write_window(const collide_call *call, collide_window *window) {
     const spt_contacts *const contacts = call->contacts;
     for (size_t body = 0; body < window->count; ++body) {
         const size_t index = window->first + body;
-        const float radius = spti_read(&call->bodies->radius, index, 0.0f);
-        spti_write(&contacts->distance, index, body_distance(window->bound[body], radius));
+        const float distance = body_distance(window->bound[body], window->radius[body]);
+        spti_write(&contacts->distance, index, distance);
         spti_write(&contacts->place, index, window->place[body]);
         spti_write_integer(&contacts->component, index, window->component[body]);
     }

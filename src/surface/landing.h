@@ -96,6 +96,15 @@ static inline float spti_landing_tolerance(const spti_target *target, const spt_
     return spti_tolerance(target, settings, landing->path[slot] + way, landing->reach[slot] + way);
 }
 
+/* Whether a hit is one that tracing converged to, or a refined one: rounding left aside,
+ * within the tolerance. */
+static inline int spti_converged(const spti_target *target, const spt_settings *settings,
+                                 const spti_landing *landing, size_t slot, float residual) {
+    const float distance = residual / target->field.lipschitz;
+    const float tolerance = spti_landing_tolerance(target, settings, landing, slot);
+    return distance <= 4.0f * tolerance && distance >= -4.0f * tolerance;
+}
+
 /* The permitted error of the pixel cone at t, world length. */
 static inline float spti_allowance(const spt_settings *settings, const spti_landing *landing,
                                    size_t slot, float t) {
@@ -107,8 +116,8 @@ static inline float spti_point(const spti_landing *landing, int axis, size_t slo
     return landing->origin[axis][slot] + t * landing->direction[axis][slot];
 }
 
-/* The length of a vector, without over- and underflow; infinite beyond FLT_MAX, 0 where no component
- * reaches FLT_MIN. */
+/* The length of a vector, without over- and underflow; infinite beyond FLT_MAX, 0 where no
+ * component reaches FLT_MIN. */
 float spti_length(float x, float y, float z);
 
 /* Rays from one on. */

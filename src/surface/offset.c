@@ -50,7 +50,7 @@ static int read_hit(const offset_call *call, const spti_landing *landing, size_t
     const float sign = inside != crosses ? -1.0f : 1.0f;
     const float residual = spti_read(&residuals, index, 0.0f);
     const float tolerance = spti_landing_tolerance(call->target, call->settings, landing, slot);
-    int there = spti_finite(residual);
+    int there = spti_converged(call->target, call->settings, landing, slot, residual);
     float square = 0.0f;
     for (int axis = 0; axis < 3; ++axis) {
         const float normal = spti_read(&call->normals->axis[axis], index, 0.0f);

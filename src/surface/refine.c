@@ -48,6 +48,8 @@ static void begin(const spti_target *target, const spt_settings *settings, const
         state->residual[slot] = residual;
         state->rounds[slot] = 0;
         if ((flag & SPT_FLAG_STEEP) != 0 || !spti_finite(residual)) continue;
+        /* Where a zone cuts a body, or a ray began inside, a hit is no root to converge to. */
+        if (!spti_converged(target, settings, landing, slot, residual)) continue;
         state->gap[slot] =
             gap_of(target, settings, landing, state, slot, landing->t[slot], residual);
         if (!spti_finite(state->gap[slot])) continue;

@@ -40,7 +40,8 @@ typedef struct reverse_window {
     size_t again_count;
     unsigned char again[SPT_BATCH]; /* index */
     uint32_t spent[SPT_BATCH], again_flags[SPT_BATCH];
-    uint16_t picked[SPT_BATCH]; /* their numbers in the window */
+    uint16_t picked[SPT_BATCH];   /* their numbers in the window */
+    float again_start[SPT_BATCH]; /* t_start of the caller's */
 } reverse_window;
 
 /* ---- Turning back ---------------------------------------------------------------------------- */
@@ -61,8 +62,8 @@ static unsigned char kind_of(const spti_call *call, const spti_chunk *chunk,
     return near ? FROM_SURFACE : FROM_INSIDE;
 }
 
-/* The way back of the ray in a slot. Its pixel cone is nowhere wider than the ray's own, by SHARPER,
- * which may leave none. */
+/* The way back of the ray in a slot. Its pixel cone is nowhere wider than the ray's own, by
+ * SHARPER, which may leave none. */
 static void turn_ray(spti_chunk *chunk, size_t slot) {
     const float t = chunk->array[SPTI_T][slot], t_out = chunk->array[SPTI_T_MAX][slot];
     const float span = t_out - t, path = SHARPER * (chunk->array[SPTI_PATH][slot] + t);
@@ -136,7 +137,7 @@ static int come_back(spti_chunk *chunk, const reverse_window *window, size_t slo
     const int deep = stopped && !(-chunk->array[SPTI_VALUE][slot] * scale < tolerance);
     const float t = out - q > start ? out - q : start;
     chunk->array[SPTI_T][slot] = t;
-    chunk->array[SPTI_CANDIDATE_T][slot] = out - chunk->array[SPTI_CANDIDATE_T][slot];
+    chunk->array[SPTI_CANDIDATE_RATIO][slot] = INFINITY; /* that of the way back means nothing */
     if (outcome == SPT_MISS) return window->kind[index] == FROM_INSIDE ? BETRAYED : SPT_MISS;
     if (outcome == SPT_HIT && deep) return is_cut(chunk, window, index) ? SPT_MISS : BETRAYED;
     if (outcome == SPT_HIT && window->kind[index] == FROM_SURFACE &&
@@ -159,10 +160,27 @@ static void trace_again(reverse_window *window, const spti_chunk *chunk, size_t 
     window->picked[at] = chunk->picked[index];
     window->spent[at] = spent;
     window->again_flags[at] = flags;
+    window->again_start[at] = window->t_start[index] * chunk->unit[index];
 }
 
-/* Looks at f in the middle of the way from start to exit, where a convex body is. Those of the
- * leavers that are betrayed, or have no budget for that, get another outcome. */
+/* Whether the middle of a ray's way is to be looked at: of all on demand, and of those from the
+ * surface, since a way back may end within the tolerance of a shallow ray that leaves. */
+static int is_looked_at(const reverse_window *window, size_t index) {
+    return window->kind[index] == FROM_SURFACE ||
+           (window->kind[index] == FROM_INSIDE && (window->flags & SPT_CHECK_CONVEX) != 0);
+}
+
+/* What f in the middle of the way from start to exit says. f of a convex body falls from the start
+ * on if the ray runs into it, and the middle is inside. */
+static int judge_middle(const spti_chunk *chunk, const reverse_window *window, size_t slot,
+                        size_t index, float value) {
+    const float radius = value * fabsf(chunk->array[SPTI_SCALE][slot]);
+    if (window->kind[index] == FROM_SURFACE && !(value < window->value[index])) return SPT_MISS;
+    if ((window->flags & SPT_CHECK_CONVEX) == 0) return SPT_HIT;
+    return radius <= window->tolerance[index] ? SPT_HIT : BETRAYED;
+}
+
+/* Looks at the middles of the leavers' ways, as far as they have the budget. */
 static SPTI_NOINLINE void look_at_middles(const spti_call *call, spti_chunk *chunk,
                                           const reverse_window *window, spti_leavers *leavers,
                                           int outcomes[SPT_BATCH]) {
@@ -172,9 +190,7 @@ static SPTI_NOINLINE void look_at_middles(const spti_call *call, spti_chunk *chu
     for (size_t i = 0; i < leavers->count; ++i) {
         const size_t slot = leavers->slots[i];
         const size_t index = (size_t)chunk->array[SPTI_INDEX][slot];
-        const int turned =
-            window->kind[index] == FROM_INSIDE || window->kind[index] == FROM_SURFACE;
-        if (!turned || outcomes[i] != SPT_HIT) continue;
+        if (outcomes[i] != SPT_HIT || !is_looked_at(window, index)) continue;
         if (leavers->age + spti_spent(chunk, slot) >= call->settings.budget) {
             outcomes[i] = SPT_LIMIT;
             chunk->array[SPTI_T][slot] = window->t_start[index];
@@ -189,19 +205,18 @@ static SPTI_NOINLINE void look_at_middles(const spti_call *call, spti_chunk *chu
         spti_set_spent(chunk, slot, spti_spent(chunk, slot) + 1);
         places[count++] = (unsigned char)i;
     }
+    if (count == 0) return;
     spti_ask(&call->field, count, point[0], point[1], point[2], distance);
     for (size_t k = 0; k < count; ++k) {
         const size_t slot = leavers->slots[places[k]];
         const size_t index = (size_t)chunk->array[SPTI_INDEX][slot];
-        const float radius = distance[k] * fabsf(chunk->array[SPTI_SCALE][slot]);
-        if (!(radius <= window->tolerance[index])) outcomes[places[k]] = BETRAYED;
+        const int outcome = judge_middle(chunk, window, slot, index, distance[k]);
+        outcomes[places[k]] = outcome;
+        if (outcome == SPT_MISS) {
+            chunk->array[SPTI_SCALE][slot] = fabsf(chunk->array[SPTI_SCALE][slot]);
+        }
     }
-    if (call->statistics != NULL && count > 0) {
-        call->statistics->passes += 1;
-        call->statistics->evaluations += count;
-        call->statistics->slots +=
-            call->field.batch != NULL ? (count + SPTI_GROUP - 1) / SPTI_GROUP * SPTI_GROUP : count;
-    }
+    spti_count_asked(call, count);
 }
 
 /* The leave of such calls. */
@@ -220,7 +235,7 @@ static void leave(const spti_call *call, spti_chunk *chunk, spti_leavers *leaver
             outcomes[i] = SPT_LIMIT;
         }
     }
-    if ((window->flags & SPT_CHECK_CONVEX) != 0) {
+    if ((window->flags & (SPT_CHECK_CONVEX | SPT_SKIP_START)) != 0) {
         look_at_middles(call, chunk, window, leavers, outcomes);
     }
     for (size_t i = 0; i < leavers->count; ++i) {
@@ -255,6 +270,25 @@ static spt_hits hits_from(const spt_hits *hits, size_t ray) {
     return from;
 }
 
+/* One whose budget is spent: it ends where it began. */
+static void end_at_start(const spti_call *call, const reverse_window *window, size_t at,
+                         const spt_hits *hits) {
+    const uint32_t flags = SPT_FLAG_INSIDE | window->again_flags[at];
+    spti_write(&hits->t, 0, window->again_start[at]);
+    spti_write(&hits->residual, 0, window->value[window->again[at]]);
+    spti_write_integer(&hits->outcome, 0, SPT_LIMIT);
+    spti_write_integer(&hits->evaluations, 0, (int32_t)window->spent[at]);
+    spti_write_integer(&hits->flags, 0, (int32_t)flags);
+    spti_write_integer(&hits->component, 0, -1);
+    spti_write(&hits->candidate_t, 0, INFINITY);
+    spti_write(&hits->candidate_ratio, 0, INFINITY);
+    spti_write_integer(&hits->fallbacks, 0, 0);
+    if (call->statistics != NULL) {
+        call->statistics->rays += 1;
+        call->statistics->outcomes[SPT_LIMIT] += 1;
+    }
+}
+
 /* Rays that are traced through the inside. The budget is each one's own, so they go one by one. */
 static void go_forward(const spti_call *call, const reverse_window *window) {
     spt_settings settings = call->settings;
@@ -266,7 +300,11 @@ static void go_forward(const spti_call *call, const reverse_window *window) {
         const uint32_t spent = window->spent[i], budget = call->settings.budget;
         const spt_column evaluations = spti_column_of(&hits.evaluations);
         const spt_column flags = spti_column_of(&hits.flags);
-        settings.budget = budget > spent ? budget - spent : 0;
+        if (spent >= budget) {
+            end_at_start(call, window, i, &hits);
+            continue;
+        }
+        settings.budget = budget - spent;
         spt_trace(&call->field, &settings, 1, &rays, &hits, call->statistics);
         const uint32_t more = (uint32_t)spti_read_integer(&evaluations, 0, 0) + spent;
         const uint32_t all = (uint32_t)spti_read_integer(&flags, 0, 0) | window->again_flags[i];

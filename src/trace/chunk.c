@@ -96,16 +96,20 @@ void spti_ask(const spt_field *field, size_t n, float *x, float *y, float *z, fl
     spti_ask_groups(field, n, x, y, z, distance);
 }
 
-void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
+void spti_count_asked(const spti_call *call, size_t n) {
     const size_t whole = (n + SPTI_GROUP - 1) / SPTI_GROUP * SPTI_GROUP;
-    spti_ask_groups(&call->field, n, chunk->array[SPTI_X], chunk->array[SPTI_Y],
-                    chunk->array[SPTI_Z], chunk->distance);
     if (call->allowance != NULL) *call->allowance -= (int64_t)n;
     if (call->statistics != NULL) {
         call->statistics->passes += 1;
         call->statistics->evaluations += n;
         call->statistics->slots += call->field.batch != NULL ? whole : n;
     }
+}
+
+void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
+    spti_ask_groups(&call->field, n, chunk->array[SPTI_X], chunk->array[SPTI_Y],
+                    chunk->array[SPTI_Z], chunk->distance);
+    spti_count_asked(call, n);
 }
 
 /* Closes the gaps of a pass that bracketed rays, and moves those to the end of each array once its
@@ -262,7 +266,7 @@ void spti_run_chunk(const spti_call *call, spti_chunk *chunk, size_t count, size
         }
         any = call->pass(chunk, &call->march, count, fresh);
         if (fresh && flags != 0) any = apply_start_options(call, chunk, count);
-        if (call->march.between != 0) any = spti_go_to_ends(chunk, count);
+        if (call->march.between != 0) spti_look_at_ends(call, chunk, count, age + 1);
         if (call->stop != NULL) any = call->stop(chunk, count);
         if (budget - age - 1 <= most_spent) any |= expire(call, chunk, count, age + 1);
         if (call->allowance != NULL && *call->allowance <= 0) {

@@ -77,7 +77,8 @@ static inline int spti_enters(const spti_chunk *chunk, size_t slot) {
 
 /* Whether rays spend evaluations beside those of the passes of a chunk. */
 static inline int spti_keeps_spent(const spti_call *call) {
-    return (call->settings.flags & SPT_SKIP_START) != 0 || call->stop != NULL || call->turn != NULL;
+    return (call->settings.flags & SPT_SKIP_START) != 0 || call->stop != NULL ||
+           call->turn != NULL || call->march.between != 0;
 }
 
 /* Settles what follows from a call's field, bound, settings, hits, statistics, stop, and rays or
@@ -125,9 +126,12 @@ static inline int spti_is_steep(float slope) {
 /* Finishes the `count` bracketed rays in the last slots of the chunk. */
 void spti_close_brackets(const spti_call *call, spti_chunk *chunk, size_t count, size_t first);
 
-/* SPT_CANDIDATE_PENUMBRA and _CLOSEST: rays that are about to end as a miss take their last sample
- * at t_max first. Returns whether any ray is finished. */
-int spti_go_to_ends(spti_chunk *chunk, size_t count);
+/* SPT_CANDIDATE_PENUMBRA and _CLOSEST: takes a last sample of rays that are about to end as a miss,
+ * at t_max, for their candidates. age: evaluations of the passes so far. */
+void spti_look_at_ends(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t age);
+
+/* Counts n evaluations in one batch. */
+void spti_count_asked(const spti_call *call, size_t n);
 
 /* SPT_SKIP_START: walks the rays of the chunk whose sample at t_min is within the tolerance out of
  * it. Returns the most evaluations that this took a ray; each ray's own are its spti_spent(). */

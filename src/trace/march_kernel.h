@@ -68,28 +68,6 @@ SPTI_INLINE spt_mask march_overlap(const march_constants *all, spt_mask mask, sp
     return spti_less_in(mask, spt_add(spt_mul(step, all->margin), floor), spt_add(a, b));
 }
 
-/* Where a ray passes closest to what may lie between a sample and the one before: the spheres
- * around both meet in a circle, and what is nearer to the ray than its radius is free. A circle
- * that is not between them says nothing that the samples do not. *back is its distance before the
- * sample. */
-SPTI_INLINE spt_wide march_closest(const spti_pair *pair, spt_wide radius, spt_wide *back) {
-    const spt_wide zero = spt_splat(0.0f);
-    const spt_wide one = spt_splat(1.0f),
-                   slope = spt_div(spt_sub(pair->after, pair->before), pair->step);
-    /* The slope of a distance bound is at most 1: then nothing overflows. */
-    const spt_wide held = spt_max(spt_min(slope, one), spt_sub(zero, one));
-    const spt_wide bend = spt_mul(held, spt_add(pair->after, pair->before));
-    const spt_wide y = spt_mul(spt_splat(0.5f), spt_add(pair->step, bend));
-    /* The first sample has none before it, and its step is FLT_MIN. */
-    const spt_mask two = spt_less(spt_splat(FLT_MIN), pair->step);
-    const spt_mask between =
-        spt_mask_and(two, spt_mask_and(spt_less(zero, y), spt_less(y, pair->step)));
-    const spt_wide near = spt_select(between, y, zero);
-    const spt_wide rest = spt_max(spt_sub(radius, near), zero);
-    *back = near;
-    return spt_select(between, spt_mul(spt_sqrt(rest), spt_sqrt(spt_add(radius, near))), radius);
-}
-
 /* Takes the point at t, `apart` from any surface, where its ratio is the least so far. */
 SPTI_INLINE void march_compare(const march_constants *all, const march_rays *rays, spt_wide apart,
                                spt_wide t, spt_mask certified, march_audit *audit) {
@@ -114,7 +92,7 @@ SPTI_INLINE void march_candidate(const march_constants *all, const march_rays *r
     const spt_wide radius = spt_abs(ray->radius);
     if (all->between != 0) {
         spt_wide back;
-        const spt_wide apart = march_closest(pair, radius, &back);
+        const spt_wide apart = ray_closest(pair->before, pair->after, pair->step, radius, &back);
         march_compare(all, rays, apart, spt_sub(ray->t, back), certified, audit);
     }
     march_compare(all, rays, radius, ray->t, certified, audit);
@@ -157,7 +135,10 @@ SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays 
     spt_mask rising = spt_mask_splat(0);
     spt_wide step = rule_step(&all->rule, &standing, ray->memory, &rising);
     *missed = spti_mask_not(covered);
-    if (rule_needs_convex) *missed = spt_mask_or(*missed, rising);
+    /* Where f rises it may still fall as seen from the origin: such a ray goes on by plain steps. */
+    if (rule_needs_convex && (all->between & SPT_CANDIDATE_PENUMBRA) == 0) {
+        *missed = spt_mask_or(*missed, rising);
+    }
     step = spt_max(spt_min(step, spt_sub(rays->t_max, ray->t)), ray->radius);
     step = spt_select(rejected, ray->radius, step);
     if (rule_pending) {

@@ -5,6 +5,8 @@
 #ifndef SPTI_RAY_KERNEL_H
 #define SPTI_RAY_KERNEL_H
 
+#include <float.h>
+
 #include "../base/arguments.h"
 #include "../lanes/lanes.h"
 #include "chunk.h"
@@ -25,6 +27,27 @@ SPTI_INLINE spt_wide ray_tolerance(spt_wide epsilon, spt_wide pixel_radius, spt_
 SPTI_INLINE spt_wide ray_point(const spti_chunk *chunk, int axis, size_t at, spt_wide t) {
     const spt_wide along = spt_mul(t, spt_load(&chunk->array[SPTI_DIRECTION + axis][at]));
     return spt_add(spt_load(&chunk->array[SPTI_ORIGIN + axis][at]), along);
+}
+
+/* Where a ray passes closest to what may lie between a sample and the one before: the spheres
+ * around both meet in a circle, and what is nearer to the ray than its radius is free. A circle
+ * that is not between them says nothing that the samples do not. *back is its distance before the
+ * sample. */
+SPTI_INLINE spt_wide ray_closest(spt_wide before, spt_wide after, spt_wide step, spt_wide radius,
+                                 spt_wide *back) {
+    const spt_wide zero = spt_splat(0.0f);
+    const spt_wide one = spt_splat(1.0f), slope = spt_div(spt_sub(after, before), step);
+    /* The slope of a distance bound is at most 1: then nothing overflows. */
+    const spt_wide held = spt_max(spt_min(slope, one), spt_sub(zero, one));
+    const spt_wide bend = spt_mul(held, spt_add(after, before));
+    const spt_wide y = spt_mul(spt_splat(0.5f), spt_add(step, bend));
+    /* The first sample has none before it, and its step is FLT_MIN. */
+    const spt_mask two = spt_less(spt_splat(FLT_MIN), step);
+    const spt_mask between = spt_mask_and(two, spt_mask_and(spt_less(zero, y), spt_less(y, step)));
+    const spt_wide near = spt_select(between, y, zero);
+    const spt_wide rest = spt_max(spt_sub(radius, near), zero);
+    *back = near;
+    return spt_select(between, spt_mul(spt_sqrt(rest), spt_sqrt(spt_add(radius, near))), radius);
 }
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Single rays of a chunk, by slot, for what is done one by one in plain C; the same operations as in
- * the kernels. For files that define SPT_LANES as 1. */
+ * Single rays of a chunk, by slot, for what is done one by one in plain C; the same operations as
+ * in the kernels. For files that define SPT_LANES as 1. */
 #ifndef SPTI_SLOT_H
 #define SPTI_SLOT_H
 

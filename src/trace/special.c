@@ -3,6 +3,7 @@
  * What few rays need, one by one in plain C around the batch callback: leaving the surface a ray
  * starts on, and closing the bracket around a sign change that no distance bound would show. */
 #define SPT_LANES 1
+#include <float.h>
 #include <math.h>
 
 #include "slot.h"
@@ -60,23 +61,58 @@ uint32_t spti_skip_start(const spti_call *call, spti_chunk *chunk, size_t count)
 
 /* ---- The end of a ray ------------------------------------------------------------------------ */
 
-int spti_go_to_ends(spti_chunk *chunk, size_t count) {
-    unsigned any = 0;
-    for (size_t slot = 0; slot < count; ++slot) {
-        spti_fates *const fates = &chunk->fates[slot / SPTI_GROUP];
-        const uint16_t bit = (uint16_t)(1u << slot % SPTI_GROUP);
-        const float t_max = chunk->array[SPTI_T_MAX][slot];
-        const int missed = (fates->missed & bit) != 0 && (fates->hit & bit) == 0;
-        /* Farther away nothing is worth a sample. */
-        if (missed && chunk->array[SPTI_T][slot] < t_max && t_max <= 0x1p62f) {
-            fates->missed &= (uint16_t)~bit;
-            fates->finished &= (uint16_t)~bit;
-            chunk->array[SPTI_PROBE][slot] = t_max;
-            spti_slot_point(chunk, slot, slot, t_max);
-        }
-        any |= fates->finished;
+/* Rays that are about to end as a miss since their last sphere reaches beyond t_max; none where the
+ * rule knew that f rises, and none whose end is too far away for a sample to mean anything. */
+static int has_end(const spti_call *call, const spti_chunk *chunk, size_t slot, uint32_t age) {
+    const spti_fates *const fates = &chunk->fates[slot / SPTI_GROUP];
+    const unsigned bit = 1u << slot % SPTI_GROUP;
+    const float t = chunk->array[SPTI_T][slot], t_max = chunk->array[SPTI_T_MAX][slot];
+    const float radius = chunk->array[SPTI_VALUE][slot] * chunk->array[SPTI_SCALE][slot];
+    if (!(fates->missed & bit) || (fates->hit & bit) || t + radius <= t_max) return 0;
+    return t < t_max && t_max <= 0x1p62f && age + spti_spent(chunk, slot) < call->settings.budget;
+}
+
+/* The candidate of a ray with a last sample at its end. */
+static void take_end(const spti_call *call, spti_chunk *chunk, size_t slot, float value) {
+    const float scale = chunk->array[SPTI_SCALE][slot], t_max = chunk->array[SPTI_T_MAX][slot];
+    const float before = chunk->array[SPTI_VALUE][slot] * scale, after = value * scale;
+    const float step = t_max - chunk->array[SPTI_T][slot];
+    float back;
+    if (!(value >= -FLT_MAX)) return;
+    const float apart = ray_closest(before, after, step, fabsf(after), &back);
+    const float ends[2] = {t_max - back, t_max}, distances[2] = {apart, fabsf(after)};
+    for (int i = 0; i < 2; ++i) {
+        const float least = chunk->array[SPTI_EPSILON][slot];
+        const float eye = ends[i] > least ? ends[i] : least;
+        const float closest = distances[i] * call->march.inverse_lipschitz / fabsf(scale);
+        const float ratio =
+            (call->march.between & SPT_CANDIDATE_CLOSEST) ? closest : distances[i] / eye;
+        if (!(ratio < chunk->array[SPTI_CANDIDATE_RATIO][slot])) continue;
+        chunk->array[SPTI_CANDIDATE_RATIO][slot] = ratio;
+        chunk->array[SPTI_CANDIDATE_T][slot] = ends[i];
     }
-    return any != 0;
+}
+
+void spti_look_at_ends(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t age) {
+    SPTI_ALIGNED(64) float point[3][SPTI_GROUP], distance[SPTI_GROUP];
+    unsigned char slots[SPTI_GROUP];
+    size_t asked = 0;
+    for (size_t slot = 0; slot < count; ++slot) {
+        if (has_end(call, chunk, slot, age)) {
+            for (int axis = 0; axis < 3; ++axis) {
+                point[axis][asked] = ray_point(chunk, axis, slot, chunk->array[SPTI_T_MAX][slot]);
+            }
+            slots[asked++] = (unsigned char)slot;
+        }
+        if (asked == 0 || (asked < SPTI_GROUP && slot + 1 < count)) continue;
+        spti_ask(&call->field, asked, point[0], point[1], point[2], distance);
+        for (size_t i = 0; i < asked; ++i) {
+            take_end(call, chunk, slots[i], distance[i]);
+            spti_set_spent(chunk, slots[i], spti_spent(chunk, slots[i]) + 1);
+        }
+        spti_count_asked(call, asked);
+        asked = 0;
+    }
 }
 
 /* ---- Brackets ------------------------------------------------------------------------------- */

@@ -134,8 +134,8 @@ static void settle_march(spti_call *call) {
 void spti_call_settle(spti_call *call) {
     call->isa = spti_isa_choose(call->settings.max_lanes);
     settle_wants(call);
-    settle_arrays(call);
     settle_march(call);
+    settle_arrays(call);
     call->pass = call->settings.method->march[call->isa][call->wants];
 }
 

@@ -97,7 +97,7 @@ static void write_ray(surface_world *self, size_t i) {
 static void trace_hits(surface_world *self) {
     surface_call call;
     for (int field = 0; field < surface_most_fields; ++field) {
-        static uint32_t found[9][surface_most];
+        uint32_t found[9][surface_most];
         surface_call_make(&call, self, DOOR_CONVEX, 1, 0);
         for (int column = 0; column < 9; ++column) call.out[column].first = found[column];
         const spt_rays rays = surface_rays(&call);
