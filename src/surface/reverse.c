@@ -233,6 +233,7 @@ static void leave(const spti_call *call, spti_chunk *chunk, spti_leavers *leaver
             outcomes[i] = come_back(chunk, window, slot, index, outcomes[i]);
         } else if (kind == SPENT) {
             outcomes[i] = SPT_LIMIT;
+            chunk->array[SPTI_CANDIDATE_RATIO][slot] = INFINITY;
         }
     }
     if ((window->flags & (SPT_CHECK_CONVEX | SPT_SKIP_START)) != 0) {
@@ -310,6 +311,8 @@ static void go_forward(const spti_call *call, const reverse_window *window) {
         const uint32_t all = (uint32_t)spti_read_integer(&flags, 0, 0) | window->again_flags[i];
         spti_write_integer(&hits.evaluations, 0, (int32_t)more);
         spti_write_integer(&hits.flags, 0, (int32_t)all);
+        spti_write(&hits.candidate_t, 0, INFINITY);
+        spti_write(&hits.candidate_ratio, 0, INFINITY);
     }
 }
 

@@ -135,10 +135,13 @@ SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays 
     spt_mask rising = spt_mask_splat(0);
     spt_wide step = rule_step(&all->rule, &standing, ray->memory, &rising);
     *missed = spti_mask_not(covered);
-    /* Where f rises it may still fall as seen from the origin: such a ray goes on by plain steps. */
-    if (rule_needs_convex && (all->between & SPT_CANDIDATE_PENUMBRA) == 0) {
-        *missed = spt_mask_or(*missed, rising);
+    if (rule_needs_convex && all->between != 0) {
+        /* Between samples of plain steps something is to be seen; and where f rises it may still
+         * fall as seen from the origin. */
+        step = ray->radius;
+        if (all->between & SPT_CANDIDATE_PENUMBRA) rising = spt_mask_splat(0);
     }
+    if (rule_needs_convex) *missed = spt_mask_or(*missed, rising);
     step = spt_max(spt_min(step, spt_sub(rays->t_max, ray->t)), ray->radius);
     step = spt_select(rejected, ray->radius, step);
     if (rule_pending) {

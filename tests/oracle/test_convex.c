@@ -158,7 +158,8 @@ static void K13_entries_and_exits(void) {
 /* ---- Starts on the surface ------------------------------------------------------------------ */
 
 /* A point on the surface where the line of a random ray leaves the body, off it by at most half a
- * tolerance, and a direction at a cosine of at least 0.3 to the normal. */
+ * tolerance, and any direction but along a face: out of the body f is to rise by a tolerance on a
+ * length of 1, far more than it rounds. */
 static int on_surface(const glass_body *body, double tolerance, spt_ray *ray, double *cosine) {
     const spt_ray line = glass_chord_ray(body, 0);
     const glass_chord chord = glass_chord_of(body, &line);
@@ -180,11 +181,13 @@ static int on_surface(const glass_body *body, double tolerance, spt_ray *ray, do
         *cosine += d * normal[axis];
     }
     *cosine /= sqrt(square);
-    return fabs(*cosine) > 0.3;
+    return *cosine < 0 || *cosine > tolerance;
 }
 
 /* Into the body a skipped start is one from inside, out of it a miss; unskipped it is a hit where
- * it begins, as of spt_trace(). */
+ * it begins, as of spt_trace(). Tolerances of depth hide a chord: f is at least -0.5 of them at the
+ * start and at most 0.75 at the hit, so that half way, f being convex, it is below its start where
+ * it falls to -2 of them: (-2 + 0.75) / 2 < -0.5 leaves an eighth for rounding. */
 static void expect_start(glass_body *body, const spt_settings *settings, const spt_ray *ray,
                          double cosine) {
     const spt_field field = glass_field(body, 0);
@@ -201,7 +204,8 @@ static void expect_start(glass_body *body, const spt_settings *settings, const s
     } else if (cosine > 0) {
         CHECK_SAY(hit.outcome == SPT_MISS, "outcome %d at %g, out of the body", hit.outcome,
                   (double)hit.t);
-    } else if (chord.meets && glass_chord_distance(body, &chord, chord.middle) < -2 * tolerance) {
+    } else if (chord.meets && glass_chord_distance(body, &chord, chord.middle) <
+                                  -2 * tolerance * body->lipschitz) {
         const int inside = hit.outcome == SPT_HIT && (hit.flags & SPT_FLAG_INSIDE) != 0;
         const double f =
             glass_chord_distance(body, &chord, (double)hit.t * chord.length) / tolerance;

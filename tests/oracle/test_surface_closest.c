@@ -112,6 +112,8 @@ static void closest_of_hits(void) {
             const spt_ray ray = {{0, 0, 0}, 0, {0, 0, 0.5f}, 100};
             spt_hit plain, hit;
             settings = surface_settings(&run, &given);
+            if (run.method == spt_convex())
+                settings.method = spt_basic(); /* whose steps it takes */
             plain = oracle_trace_one(&field, &settings, &ray);
             given.flags = i % 2 == 0 ? SPT_CANDIDATE_CLOSEST : SPT_CANDIDATE_PENUMBRA;
             settings = surface_settings(&run, &given);
