@@ -30,13 +30,13 @@ static void narrow(spti_union *lazy, size_t place, size_t count) {
                                        array[SPTI_DIRECTION + 2]};
     float *const t_in = array[SPTI_T], *const t_out = array[SPTI_T_MAX];
     float *const key = spti_union_state(lazy, place, SPTI_STATE_KEY);
-    float *const exit = spti_union_state(lazy, place, SPTI_STATE_EXIT);
+    float *const leaves = spti_union_state(lazy, place, SPTI_STATE_EXIT);
     gather(lazy, count);
     spti_bound_ask(lazy->calls[lazy->list[place]].march.bound, count, origin, direction, t_in,
                    t_out);
     for (size_t i = 0; i < count; ++i) {
         const size_t ray = lazy->chunk.picked[i];
-        if (!spti_bound_cut(t_in[i], t_out[i], &key[ray], &exit[ray])) key[ray] = INFINITY;
+        if (!spti_bound_cut(t_in[i], t_out[i], &key[ray], &leaves[ray])) key[ray] = INFINITY;
     }
 }
 
