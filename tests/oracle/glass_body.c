@@ -302,3 +302,22 @@ spt_field glass_field(glass_body *body, int with_gradient) {
     if (with_gradient) field.gradient = gradient;
     return field;
 }
+
+glass_body glass_body_number(int number) {
+    switch (number) {
+    case 0:
+        return glass_ball();
+    case 1:
+        return glass_plate();
+    case 2:
+        return glass_cube();
+    case 3:
+        return glass_dodecahedron();
+    case 4:
+        return glass_rounded(8);
+    case 5:
+        return glass_rounded(32);
+    default:
+        return glass_random();
+    }
+}

@@ -52,4 +52,8 @@ int glass_cross(const glass_body *body, const double origin[3], const double dir
 /* The field with a batch callback, a gradient where wanted, and the bound; convex. */
 spt_field glass_field(glass_body *body, int with_gradient);
 
+/* Ball, plate, cube, dodecahedron, rounded by exponents 8 and 32, and from the seventh on random
+ * polyhedra. */
+glass_body glass_body_number(int number);
+
 #endif

@@ -15,25 +15,6 @@
 
 enum { body_count = 8, ray_count = 24 };
 
-static glass_body body_number(int number) {
-    switch (number) {
-    case 0:
-        return glass_ball();
-    case 1:
-        return glass_plate();
-    case 2:
-        return glass_cube();
-    case 3:
-        return glass_dodecahedron();
-    case 4:
-        return glass_rounded(8);
-    case 5:
-        return glass_rounded(32);
-    default:
-        return glass_random();
-    }
-}
-
 /* The ball of body->bound goes into a bound of that number. */
 static void put_in_bound(glass_body *body, int number, spt_bound *bound, glass_volume *volume,
                          const char **name) {
@@ -129,7 +110,7 @@ static void K13_entries_and_exits(void) {
     tally sum = {0, 0, 0, 0, 0, 0};
     uint32_t number = 0;
     for (int which = 0; which < body_count; ++which) {
-        glass_body body = body_number(which);
+        glass_body body = glass_body_number(which);
         for (int kind = 0; kind < glass_bound_count; ++kind) {
             for (int declared = 0; declared < 2; ++declared, ++number) {
                 const char *name;
@@ -218,7 +199,7 @@ static void expect_start(glass_body *body, const spt_settings *settings, const s
 static void K13_starts_on_the_surface(void) {
     int done = 0;
     for (uint32_t number = 0; number < 32; ++number) {
-        glass_body body = body_number((int)(number % body_count));
+        glass_body body = glass_body_number((int)(number % body_count));
         spt_settings settings = settings_number(number, SPT_FIELD_CONVEX);
         settings.epsilon = 1e-4f;
         settings.pixel_radius = 0;

@@ -24,24 +24,6 @@ static const struct {
 enum { tolerance_count = sizeof tolerances / sizeof tolerances[0] };
 
 enum { body_count = 9 };
-static glass_body body_number(int number) {
-    switch (number) {
-    case 0:
-        return glass_ball();
-    case 1:
-        return glass_plate();
-    case 2:
-        return glass_cube();
-    case 3:
-        return glass_dodecahedron();
-    case 4:
-        return glass_rounded(8);
-    case 5:
-        return glass_rounded(32);
-    default:
-        return glass_random();
-    }
-}
 
 /* One of the library's ways to do it: every rule, declared convex or not, marched through or
  * traced backwards, with and without SPT_SKIP_START, checks, gradients, float callbacks. */
@@ -169,7 +151,7 @@ static void K12_glass_paths(void) {
     uint32_t number = 0;
     memset(sums, 0, sizeof sums);
     for (int which = 0; which < body_count; ++which) {
-        glass_body body = body_number(which);
+        glass_body body = glass_body_number(which);
         for (int index = 0; index < index_count; ++index) {
             for (int tolerance = 0; tolerance < tolerance_count; ++tolerance, ++number) {
                 glass_run run = way_number(number, &body);

@@ -3,9 +3,7 @@
  * Faults once found in the queries of surfaces, each as the smallest case that shows it, against
  * exact entries, exits and distances, at every width. Those of candidates of spt_trace() are in
  * test_surface_found_candidates.c. */
-#include "stress.h"
-
-#include "../rules.h"
+#include "surface_found.h"
 
 #include <spheretrace/scene.h>
 #include <spheretrace/surface.h>
@@ -14,34 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FOR_EACH_WIDTH \
-    int width = 0; \
-    width < width_count; \
-    ++width
-
 /* ---- Fields --------------------------------------------------------------------------------- */
-
-typedef struct subject {
-    stress_distance_fn *distance;
-    const void *data;
-    uint32_t calls; /* of a single ray each is one evaluation */
-} subject;
-
-static void subject_batch(void *user, size_t n, const float *x, const float *y, const float *z,
-                          float *distance) {
-    subject *const self = user;
-    ++self->calls;
-    for (size_t i = 0; i < n; ++i) distance[i] = self->distance(self->data, x[i], y[i], z[i]);
-}
-
-static spt_field field_of(subject *self, uint32_t flags, const spt_bound *bound) {
-    spt_field field = spt_field_default();
-    field.batch = subject_batch;
-    field.user = self;
-    field.flags = flags;
-    field.bound = bound;
-    return field;
-}
 
 static float cube_distance(const void *data, float x, float y, float z) {
     (void)data;
@@ -55,20 +26,10 @@ static float torus_distance(const void *data, float x, float y, float z) {
     return sqrtf(ring * ring + y * y) - 0.3f;
 }
 
-static const stress_sphere unit = {{0.0f, 0.0f, 0.0f}, 1.0f};
 static const stress_sphere twice = {{0.0f, 0.0f, 0.0f}, 2.0f};
-static subject ball = {stress_sphere_distance, &unit, 0};
 static subject large = {stress_sphere_distance, &twice, 0};
 static subject cube = {cube_distance, NULL, 0};
 static subject torus = {torus_distance, NULL, 0};
-
-static spt_settings settings_of(int width, uint32_t flags) {
-    spt_settings settings = spt_settings_default();
-    settings.max_lanes = widths[width];
-    settings.flags = flags;
-    check_context("width %u, flags %x", widths[width], (unsigned)flags);
-    return settings;
-}
 
 static spt_hit convex_hit(const spt_field *field, const spt_settings *settings,
                           const spt_ray *ray) {
