@@ -136,8 +136,8 @@ SPT_API spt_status spt_level_set_field(const spt_field *field, const float eye[3
  *   hits         t, residual and outcome must be there; t and residual are read and rewritten,
  *                evaluations, if there, added to; flags, if there, and component, with more than
  *                one field, are read. Only SPT_HIT without SPT_FLAG_STEEP is moved
- * Hits farther from the surface than four times the tolerance stay (cuts of zones, starts inside). A
- * move is kept only if it brings f closer to the aim, is never longer than |f| / lipschitz plus
+ * Hits farther from the surface than four times the tolerance stay (cuts of zones, starts inside).
+ * A move is kept only if it brings f closer to the aim, is never longer than |f| / lipschitz plus
  * the allowance, and stays in [t_min, t_max]; so a hit is never worse than before. Leave
  * settings.pixel_radius as traced; with 0 the aim is f = 0. Returns SPT_BAD_ARGUMENT as spt_trace()
  * does, for absent sinks and iterations > 16. Cost: one evaluation a round for every hit that still
@@ -232,9 +232,9 @@ SPT_API spt_status spt_offset(const spt_field *fields, size_t field_count,
  * Other results as from spt_trace(): t between t_min and t_max, SPT_FLAG_INSIDE for rays from
  * inside, whose residual is f at the hit up to rounding. SPT_LIMIT from inside leaves t where the
  * ray began. Rays from inside have no candidate. evaluations <= budget holds for both ways
- * together. Where rounding at the end of the bound, 2^-22 (|origin|_inf + t_out
- * |direction| + size), exceeds an eighth of the tolerance, or the bound has no end, the ray is
- * traced forward: with the usual epsilon of 1e-4 beyond 52.
+ * together. Where rounding at the end of the bound, 2^-22 (|origin|_inf + t_out |direction| +
+ * size), exceeds an eighth of the tolerance, or the bound has no end, the ray is traced forward:
+ * with the usual epsilon of 1e-4 where that sum exceeds 52.
  * Returns SPT_BAD_ARGUMENT as spt_trace() does, and for a field without bound.
  * Cost: four evaluations a ray from inside a dodecahedron, where marching through takes eleven. */
 SPT_API spt_status spt_trace_convex(const spt_field *field, const spt_settings *settings,
@@ -250,25 +250,26 @@ SPT_API spt_status spt_occluded(const spt_field *field, const spt_settings *sett
                                 const spt_rays *rays, const spt_sink *occluded,
                                 spt_statistics *statistics);
 
-/* What spt_crossings() writes, each sink optional. */
+/* What spt_crossings_of() writes, each sink optional. */
 typedef struct spt_crossings {
     spt_sink t;         /* float: the first crossing of each ray; the sink's stride leads to the
-                           * next ray, */
+                         * next ray, */
     ptrdiff_t t_step;   /* and this many bytes lead to the same ray's next crossing */
     uint32_t most;      /* room for so many a ray, 1 to 1024 */
     spt_sink number;    /* uint32_t: how many there are, at most `most` */
     spt_sink inside;    /* int32_t: 1 where the ray begins inside; crossings alternate from there */
-    spt_sink thickness; /* float: world length inside bodies between t_min and t_max, as far as
-                           * the crossings found tell; +infinity where the ray ends inside and
-                           * t_max is +infinity */
-    spt_sink outcome;   /* int32_t: how the search ended: SPT_MISS all were found; SPT_HIT there
-                           * was no room for more; SPT_LIMIT, SPT_NONFINITE and SPT_BAD_RAY as in
-                           * spt_hits, behind the last crossing */
+    spt_sink thickness; /* float: world length inside bodies between t_min and t_max, up to the
+                         * last crossing unless all were found; +infinity where the ray ends inside
+                         * and t_max is +infinity */
+    spt_sink outcome;   /* int32_t: how the search ended: SPT_MISS all were found; SPT_HIT there was
+                         * no room for more; SPT_LIMIT, SPT_NONFINITE and SPT_BAD_RAY as in
+                         * spt_hits, behind the last crossing */
 } spt_crossings;
 
 /* All crossings of each ray with the surface, in ascending order, for CSG and media: entries and
  * exits in turn. A ray that comes within the tolerance and turns back has not crossed; a sheet or a
- * gap thinner than the tolerance may be passed over whole. Each t is at most a tolerance before its
+ * gap thinner than the tolerance may be passed over whole; and a ray that stays within it up to
+ * t_max counts as outside there. Each t is at most a tolerance before its
  * crossing, by the cosine. settings.budget counts for each stretch between two approaches, of which
  * there are at most 2 most + 2. SPT_STOP_INSIDE is refused. Elements of t behind the last crossing
  * are not written. Returns SPT_BAD_ARGUMENT as spt_trace() does, and for a bad structure. */
