@@ -8,6 +8,8 @@
 
 #include "../rules.h"
 
+#include <math.h>
+
 #define FOR_EACH_WIDTH \
     int width = 0; \
     width < width_count; \
@@ -44,6 +46,22 @@ static inline spt_settings settings_of(int width, uint32_t flags) {
     settings.flags = flags;
     check_context("width %u, flags %x", widths[width], (unsigned)flags);
     return settings;
+}
+
+static inline void random_unit(double vector[3]) {
+    double square;
+    do {
+        square = 0;
+        for (int i = 0; i < 3; ++i) {
+            vector[i] = check_uniform(-1, 1);
+            square += vector[i] * vector[i];
+        }
+    } while (square > 1 || square < 0.01);
+    for (int i = 0; i < 3; ++i) vector[i] /= sqrt(square);
+}
+
+static inline double product(const float a[3], const float b[3]) {
+    return (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
 }
 
 #endif

@@ -7,22 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-static void random_unit(double vector[3]) {
-    double square;
-    do {
-        square = 0;
-        for (int i = 0; i < 3; ++i) {
-            vector[i] = check_uniform(-1, 1);
-            square += vector[i] * vector[i];
-        }
-    } while (square > 1 || square < 0.01);
-    for (int i = 0; i < 3; ++i) vector[i] /= sqrt(square);
-}
-
-static double product(const float a[3], const float b[3]) {
-    return (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
-}
-
 /* ---- How near rays pass ---------------------------------------------------------------------- */
 
 static spt_hit traced(const spt_field *field, const spt_settings *settings, const spt_ray *ray,
