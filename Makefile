@@ -63,7 +63,7 @@ METHODS := $(shell sed -n 's/^ *X(\([a-z_]*\)).*/\1/p' src/methods/methods.h)
 MARCH_ISAS := $(filter-out ssse3,$(ISAS))
 
 # Kernels of a room that are built once for every instruction set: src/backend/NAME.c.
-KERNELS := chunk union cone
+KERNELS := chunk union cone krs distort
 PLAIN := $(filter-out src/backend/march.c src/backend/method.c $(KERNELS:%=src/backend/%.c),\
            $(wildcard src/*/*.c))
 OBJECTS := $(PLAIN:src/%.c=$B/src/%.o) \

@@ -22,7 +22,7 @@ none "the top level holds only the agreed names" extra
 
 # Includes go one way. backend/isa.h is the choice of a width and belongs to the base.
 order() {
-  local rank="base=0 lanes=1 bound=2 methods=3 trace=4 surface=5 scene=6 frame=7"
+  local rank="base=0 lanes=1 bound=2 methods=3 trace=4 surface=5 scene=6 krs=6 frame=7"
   grep -no '#include "[^"]*"' src/*/*.[ch] | while IFS=: read -r file _ include; do
     local room to target
     room=$(basename "$(dirname "$file")")
@@ -59,7 +59,7 @@ none "all loops in src are for loops" unbounded
 frames() {
   local file
   for file in src/base/*.c src/bound/*.c src/trace/*.c \
-      src/surface/*.c src/scene/*.c src/frame/*.c; do
+      src/surface/*.c src/scene/*.c src/krs/*.c src/frame/*.c; do
     cc -std=c99 -O3 -ffp-contract=off -fno-math-errno -DSPTI_HAVE_SSE2 -Iinclude -Wvla \
       -Wframe-larger-than=32768 -c "$file" -o "$build/frame.o"
   done

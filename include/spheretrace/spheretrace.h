@@ -10,6 +10,8 @@
 #include "bound.h"
 #include "field.h"
 #include "frame.h"
+#include "krs.h"
+#include "mobius.h"
 #include "scene.h"
 #include "shapes.h"
 #include "surface.h"

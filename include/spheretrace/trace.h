@@ -219,8 +219,8 @@ enum {
      * lower bound of the distance to any surface there, and exact for one that touches it. A ray
      * that hits nothing takes one more sample, at t_max, if the budget and a t_max below 2^62 in
      * world length (or so) allow; the outcome is that without it. spt_convex() takes plain steps,
-     * and more of them. Of a field with a bound only the way inside it counts. In frames cones and culling leave out what they pass: use
-     * SPT_FRAME_NO_CONES | SPT_FRAME_NO_CULLING.
+     * and more of them. Of a field with a bound only the way inside it counts. In frames cones and
+     * culling leave out what they pass: use SPT_FRAME_NO_CONES | SPT_FRAME_NO_CULLING.
      * PENUMBRA: the least of that distance over t |direction|, an estimate of the tangent of the
      *   angle by which the ray misses a surface as seen from its own origin, whatever its path; see
      *   spt_penumbra() (surface.h)

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "../base/arguments.h"
+#include "../base/random.h"
 #include "../bound/bound_check.h"
 #include "driver.h"
 
@@ -42,23 +43,10 @@ typedef struct check_record {
     float inside[3], inside_value;
 } check_record;
 
-/* PCG-RXS-M-XS (O'Neill 2014). */
-static uint32_t draw(check_walk *walk) {
-    const uint32_t state = walk->state;
-    const uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
-    walk->state = state * 747796405u + 2891336453u;
-    return (word >> 22) ^ word;
-}
-
-/* In [0, 1). */
-static float draw_share(check_walk *walk) {
-    return (float)(draw(walk) >> 8) * 0x1p-24f;
-}
-
 static void draw_direction(check_walk *walk, float direction[3]) {
     for (int axis = 0; axis < 3; ++axis) {
         const float half = 0.5f * walk->high[axis] - 0.5f * walk->low[axis];
-        direction[axis] = half * (2.0f * draw_share(walk) - 1.0f);
+        direction[axis] = half * (2.0f * spti_draw_share(&walk->state) - 1.0f);
     }
 }
 
@@ -95,7 +83,7 @@ static int begin_walk(check_walk *walk) {
     for (int attempt = 0; attempt < ATTEMPTS; ++attempt) {
         float direction[3];
         for (int axis = 0; axis < 3; ++axis) {
-            const float share = draw_share(walk);
+            const float share = spti_draw_share(&walk->state);
             walk->at[axis] = walk->low[axis] * (1.0f - share) + walk->high[axis] * share;
         }
         draw_direction(walk, direction);
@@ -112,9 +100,10 @@ static void choose_points(check_walk *walk, check_samples *samples, size_t pair)
     draw_direction(walk, direction);
     for (int axis = 0; axis < 3; ++axis) opposite[axis] = -direction[axis];
     const float end = reach(walk, direction), begin = -reach(walk, opposite);
-    const float one = begin + (end - begin) * draw_share(walk);
-    const float other = begin + (end - begin) * draw_share(walk);
-    const float apart = (end - one) / (float)(2u << draw(walk) % 12); /* slopes at all scales */
+    const float one = begin + (end - begin) * spti_draw_share(&walk->state);
+    const float other = begin + (end - begin) * spti_draw_share(&walk->state);
+    const float apart =
+        (end - one) / (float)(2u << spti_draw(&walk->state) % 12); /* slopes at all scales */
     point_at(walk, direction, one, samples->point[ONE][pair]);
     point_at(walk, direction, other, samples->point[OTHER][pair]);
     point_at(walk, direction, one + apart, samples->point[NEAR][pair]);

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Möbius kernel-reflection sequences: building them, and what they answer. */
+#include <math.h>
+
+#include "../base/arguments.h"
+#include "../bound/bound_check.h"
+#include "../trace/driver.h"
+#include "locate.h"
+#include "mobius_build.h"
+
+/* The ball around what is before x = 0 of a ball, and its image. */
+static spti_ball mirrored(const spti_ball *ball, int *straddles) {
+    spti_ball both = *ball;
+    const double before = -ball->center[0];
+    *straddles = ball->radius > before;
+    if (!(ball->radius >= 0) || !(ball->radius <= (double)FLT_MAX)) return both;
+    if (before < 0 && !(ball->radius + before >= 0)) {
+        both.radius = -1;
+        return both;
+    }
+    both.center[0] = 0;
+    both.radius =
+        before < 0 ? sqrt(ball->radius * ball->radius - before * before) : ball->radius + before;
+    return both;
+}
+
+static int build_levels(const spt_moekrs_model *model, spt_moekrs *moekrs) {
+    spti_ball whole, kernel;
+    if (!spti_build_kernel(&model->kernels[0], &moekrs->kernels[0], &whole)) return 0;
+    for (uint32_t level = 0; level < model->levels; ++level) {
+        int straddles = 0;
+        spt_built_kernel *const built = &moekrs->kernels[level + 1];
+        if (!spti_build_map(&model->maps[level], &moekrs->maps[level])) return 0;
+        if (!spti_build_kernel(&model->kernels[level + 1], built, &kernel)) return 0;
+        if (!(model->unmirrored >> level & 1)) whole = mirrored(&whole, &straddles);
+        if (straddles) moekrs->straddles |= UINT64_C(1) << level;
+        whole = spti_ball_around(&whole, &kernel);
+        whole = spti_map_ball(&whole, &model->maps[level]);
+    }
+    moekrs->bounded = spti_bound_of_ball(&whole, &moekrs->bound);
+    return 1;
+}
+
+spt_status spt_moekrs_build(const spt_moekrs_model *model, spt_moekrs *moekrs) {
+    spt_moekrs_model copy = spt_moekrs_model_default();
+    spt_moekrs built;
+    if (model == NULL || moekrs == NULL) return SPT_BAD_ARGUMENT;
+    if (!spti_copy_sized(&copy, model, sizeof copy)) return SPT_BAD_ARGUMENT;
+    if (copy.levels > SPT_KRS_LEVELS || copy.kernels == NULL) return SPT_BAD_ARGUMENT;
+    if (copy.levels > 0 && copy.maps == NULL) return SPT_BAD_ARGUMENT;
+    if (!spti_within(copy.smooth, 0.0f, FLT_MAX)) return SPT_BAD_ARGUMENT;
+    if (!spti_lanes_are_good(copy.max_lanes)) return SPT_BAD_ARGUMENT;
+    memset(&built, 0, sizeof built);
+    built.levels = copy.levels;
+    built.max_lanes = copy.max_lanes;
+    built.unmirrored = copy.unmirrored;
+    built.smooth = copy.smooth;
+    if (!build_levels(&copy, &built)) return SPT_BAD_ARGUMENT;
+    if (built.smooth > 0.0f && !spti_have_gradients(built.kernels, built.levels)) {
+        return SPT_BAD_ARGUMENT;
+    }
+    if (copy.bound != NULL) {
+        if (!spti_bound_copy(&built.bound, copy.bound)) return SPT_BAD_ARGUMENT;
+        built.bounded = 1;
+    }
+    *moekrs = built;
+    return SPT_OK;
+}
+
+static spti_stretch stretch_of(const spt_moekrs *moekrs) {
+    const spti_stretch model = {moekrs->levels, moekrs->levels,    0, 1, 0, moekrs->kernels, NULL,
+                                moekrs->maps,   moekrs->unmirrored};
+    return model;
+}
+
+/* Points that may be written, and what goes with them. */
+typedef struct moekrs_points {
+    SPTI_ALIGNED(64) float x[SPT_BATCH], y[SPT_BATCH], z[SPT_BATCH];
+    SPTI_ALIGNED(64) float shrink[SPT_BATCH], reach[SPT_BATCH];
+} moekrs_points;
+
+static void copy_points(moekrs_points *points, size_t n, const float *x, const float *y,
+                        const float *z) {
+    memcpy(points->x, x, n * sizeof *x);
+    memcpy(points->y, y, n * sizeof *y);
+    memcpy(points->z, z, n * sizeof *z);
+}
+
+static void moekrs_distance(void *user, size_t n, const float *x, const float *y, const float *z,
+                            float *distance) {
+    const spt_moekrs *const moekrs = user;
+    const spti_stretch model = stretch_of(moekrs);
+    moekrs_points points;
+    const spti_way way = {points.x,      points.y,     points.z, distance,
+                          points.shrink, points.reach, NULL};
+    copy_points(&points, n, x, y, z);
+    spti_walk(&model, SPTI_WALK_PULL, moekrs->max_lanes, n, &way);
+}
+
+static float moekrs_point(void *user, float x, float y, float z) {
+    const spti_stretch model = stretch_of(user);
+    float distance, shrink, reach;
+    const spti_way way = {&x, &y, &z, &distance, &shrink, &reach, NULL};
+    spti_walk(&model, SPTI_WALK_PULL, 1, 1, &way);
+    return distance;
+}
+
+static void moekrs_gradient(void *user, size_t n, const float *x, const float *y, const float *z,
+                            float *gradient_x, float *gradient_y, float *gradient_z) {
+    const spt_moekrs *const moekrs = user;
+    const spti_stretch model = stretch_of(moekrs);
+    spti_place_gradients(&model, moekrs->smooth, n, x, y, z, gradient_x, gradient_y, gradient_z);
+}
+
+spt_field spt_moekrs_field(const spt_moekrs *moekrs) {
+    spt_field field = spt_field_default();
+    if (moekrs == NULL) return field;
+    field.batch = moekrs_distance;
+    field.point = moekrs_point;
+    field.user = (void *)(uintptr_t)moekrs; /* only read */
+    field.bound = moekrs->bounded ? &moekrs->bound : NULL;
+    if (spti_have_gradients(moekrs->kernels, moekrs->levels)) field.gradient = moekrs_gradient;
+    return field;
+}
+
+static void moekrs_clearance(void *user, size_t n, const float *x, const float *y, const float *z,
+                             const float *radius, float *clearance) {
+    const spt_moekrs *const moekrs = user;
+    const spti_stretch model = stretch_of(moekrs);
+    moekrs_points points;
+    const spti_way way = {points.x, points.y, points.z, clearance, NULL, NULL, points.shrink};
+    copy_points(&points, n, x, y, z);
+    memcpy(points.shrink, radius, n * sizeof *radius);
+    spti_walk(&model, SPTI_WALK_PROBE, moekrs->max_lanes, n, &way);
+}
+
+static float moekrs_clearance_at(void *user, float x, float y, float z, float radius) {
+    const spti_stretch model = stretch_of(user);
+    float clearance;
+    const spti_way way = {&x, &y, &z, &clearance, NULL, NULL, &radius};
+    spti_walk(&model, SPTI_WALK_PROBE, 1, 1, &way);
+    return clearance;
+}
+
+spt_probe spt_moekrs_probe(const spt_moekrs *moekrs) {
+    spt_probe probe = spt_probe_default();
+    if (moekrs == NULL) return probe;
+    probe.batch = moekrs_clearance;
+    probe.point = moekrs_clearance_at;
+    probe.user = (void *)(uintptr_t)moekrs;
+    probe.bound = moekrs->bounded ? &moekrs->bound : NULL;
+    return probe;
+}
+
+spt_status spt_moekrs_locate(const spt_moekrs *moekrs, int32_t component,
+                             const spt_settings *settings, size_t count, const spt_rays *rays,
+                             const spt_hits *hits, const spt_krs_places *places) {
+    if (moekrs == NULL) return SPT_BAD_ARGUMENT;
+    const spti_stretch model = stretch_of(moekrs);
+    return spti_locate(&model, moekrs->smooth, component, settings, count, rays, hits, places);
+}

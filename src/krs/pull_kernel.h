@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Points and balls through the Möbius maps of a sequence, from the world to kernel space. A template
+ * over SPT_LANES.
+ *
+ * With u = a - x c and U = |u|^2 the preimage of x is (d* x + b*) u / U, lengths shrink by U, and a
+ * ball around x of radius r, taken through the map, is free of what is farther than s from the
+ * preimage as long as r <= s U / (1 + s U |c| / |u|). Through all levels together r = k / (A + B |k|),
+ * k the distance there: A is divided by U at each, and B grows by A |c| / |u| before. (Szécsi et al.
+ * 2016, section 6, for one level; in one pass over all, and with centered balls, ours.) */
+#ifndef SPTI_PULL_KERNEL_H
+#define SPTI_PULL_KERNEL_H
+
+#include <math.h>
+
+#include "shape_kernel.h"
+
+typedef struct pull_quaternion {
+    spt_wide real;
+    shape_points pure;
+} pull_quaternion;
+
+/* x times the pure part of a constant quaternion, crosswise. */
+SPTI_INLINE shape_points pull_cross(shape_points x, const float q[4]) {
+    const spt_wide a = spt_splat(q[1]), b = spt_splat(q[2]), c = spt_splat(q[3]);
+    const shape_points product = {spt_sub(spt_mul(x.y, c), spt_mul(x.z, b)),
+                                  spt_sub(spt_mul(x.z, a), spt_mul(x.x, c)),
+                                  spt_sub(spt_mul(x.x, b), spt_mul(x.y, a))};
+    return product;
+}
+
+SPTI_INLINE spt_wide pull_dot(shape_points x, const float q[4]) {
+    return spt_add(spt_add(spt_mul(x.x, spt_splat(q[1])), spt_mul(x.y, spt_splat(q[2]))),
+                   spt_mul(x.z, spt_splat(q[3])));
+}
+
+/* u = a - x c, nowhere shorter than rounding makes it: at the pole of the map itself, whose preimage
+ * is infinity, that of a point beside it. */
+SPTI_INLINE pull_quaternion pull_denominator(const spt_built_map *map, shape_points x,
+                                             spt_wide *inverse) {
+    const shape_points cross = pull_cross(x, map->c);
+    const spt_wide real = spt_splat(map->c[0]), zero = spt_splat(0.0f);
+    const spt_wide least = spt_splat(map->least);
+    pull_quaternion u;
+    u.real = spt_add(spt_splat(map->a[0]), pull_dot(x, map->c));
+    u.pure.x = spt_sub(spt_splat(map->a[1]), spt_add(spt_mul(x.x, real), cross.x));
+    u.pure.y = spt_sub(spt_splat(map->a[2]), spt_add(spt_mul(x.y, real), cross.y));
+    u.pure.z = spt_sub(spt_splat(map->a[3]), spt_add(spt_mul(x.z, real), cross.z));
+    const spt_wide pure = spt_add(spt_add(spt_mul(u.pure.x, u.pure.x), spt_mul(u.pure.y, u.pure.y)),
+                                  spt_mul(u.pure.z, u.pure.z));
+    const spt_wide whole = spt_add(spt_mul(u.real, u.real), pure);
+    const spt_wide floor = spt_mul(least, least);
+    const spt_mask small = spt_less(whole, floor);
+    u.real = spt_select(small, least, u.real);
+    u.pure.x = spt_select(small, zero, u.pure.x);
+    u.pure.y = spt_select(small, zero, u.pure.y);
+    u.pure.z = spt_select(small, zero, u.pure.z);
+    *inverse = spt_div(spt_splat(1.0f), spt_select(small, floor, whole));
+    return u;
+}
+
+/* The preimage of x; inverse is 1 / |u|^2. */
+SPTI_INLINE shape_points pull_point(const spt_built_map *map, shape_points x, pull_quaternion u,
+                                    spt_wide inverse) {
+    const shape_points cross = pull_cross(x, map->d); /* -d x, as d* has it */
+    const spt_wide real = spt_splat(map->d[0]);
+    const spt_wide w = spt_add(pull_dot(x, map->d), spt_splat(map->b[0]));
+    const shape_points v = {spt_sub(spt_add(spt_mul(x.x, real), cross.x), spt_splat(map->b[1])),
+                            spt_sub(spt_add(spt_mul(x.y, real), cross.y), spt_splat(map->b[2])),
+                            spt_sub(spt_add(spt_mul(x.z, real), cross.z), spt_splat(map->b[3]))};
+    const spt_wide cross_x = spt_sub(spt_mul(v.y, u.pure.z), spt_mul(v.z, u.pure.y));
+    const spt_wide cross_y = spt_sub(spt_mul(v.z, u.pure.x), spt_mul(v.x, u.pure.z));
+    const spt_wide cross_z = spt_sub(spt_mul(v.x, u.pure.y), spt_mul(v.y, u.pure.x));
+    const shape_points image = {
+        spt_mul(spt_add(spt_add(spt_mul(w, u.pure.x), spt_mul(v.x, u.real)), cross_x), inverse),
+        spt_mul(spt_add(spt_add(spt_mul(w, u.pure.y), spt_mul(v.y, u.real)), cross_y), inverse),
+        spt_mul(spt_add(spt_add(spt_mul(w, u.pure.z), spt_mul(v.z, u.real)), cross_z), inverse)};
+    return image;
+}
+
+/* What is joined at each level: a bound of the distance in the world, */
+typedef struct pull_scale {
+    spt_wide shrink, reach;
+} pull_scale;
+
+SPTI_INLINE shape_points pull_level(const spt_built_map *map, shape_points x, pull_scale *scale) {
+    spt_wide inverse;
+    const pull_quaternion u = pull_denominator(map, x, &inverse);
+    const spt_wide bend = spt_mul(spt_splat(map->c_length), spt_sqrt(inverse));
+    scale->reach = spt_add(scale->reach, spt_mul(scale->shrink, bend));
+    scale->shrink = spt_mul(scale->shrink, inverse);
+    return pull_point(map, x, u, inverse);
+}
+
+/* The radius of the ball in the world that a distance at the end of the way leaves free. Beyond 2^64
+ * it counts as that, so that infinity, which is legal, is not divided by infinity. */
+SPTI_INLINE spt_wide pull_radius(const pull_scale *scale, spt_wide distance) {
+    const spt_wide k = spt_min(spt_splat(0x1p64f), distance);
+    return spt_div(k, spt_add(scale->shrink, spt_mul(scale->reach, spt_abs(k))));
+}
+
+/* or the clearance of a ball, -1 where it came out inside-out. */
+typedef struct pull_ball {
+    spt_wide radius;
+    spt_mask inside_out;
+} pull_ball;
+
+SPTI_INLINE shape_points pull_ball_level(const spt_built_map *map, shape_points x,
+                                         pull_ball *ball) {
+    const spt_wide one = spt_splat(1.0f);
+    const spt_wide c_square = spt_splat(map->c_length * map->c_length);
+    spt_wide inverse;
+    const pull_quaternion u = pull_denominator(map, x, &inverse);
+    const shape_points q = pull_point(map, x, u, inverse);
+    /* m < 1: the ball does not reach the pole */
+    const spt_wide square = spt_mul(ball->radius, ball->radius);
+    const spt_wide m = spt_mul(spt_mul(square, c_square), inverse);
+    const spt_wide growth = spt_div(one, spt_sub(one, m));
+    ball->inside_out = spt_mask_or(ball->inside_out, spti_mask_not(spt_less(m, one)));
+    /* What means nothing any more must not shrink to where processors are slow. */
+    const spt_wide share = spt_select(ball->inside_out, spt_splat(0.0f), spt_mul(m, growth));
+    const spt_wide radius = spt_mul(spt_mul(ball->radius, inverse), growth);
+    ball->radius = spt_select(ball->inside_out, one, radius);
+    const shape_points image = {
+        spt_add(q.x, spt_mul(spt_sub(q.x, spt_splat(map->center[0])), share)),
+        spt_add(q.y, spt_mul(spt_sub(q.y, spt_splat(map->center[1])), share)),
+        spt_add(q.z, spt_mul(spt_sub(q.z, spt_splat(map->center[2])), share))};
+    return image;
+}
+
+/* The mirror x = 0 of a level, of points that are to be on x <= 0. */
+SPTI_INLINE shape_points pull_mirror(const spti_stretch *stretch, uint32_t level, shape_points x) {
+    if (!(stretch->unmirrored >> level & 1)) x.x = spt_sub(spt_splat(0.0f), spt_abs(x.x));
+    return x;
+}
+
+SPTI_INLINE shape_points pull_load(const spti_way *way, size_t at) {
+    const shape_points x = {spt_load(&way->x[at]), spt_load(&way->y[at]), spt_load(&way->z[at])};
+    return x;
+}
+
+SPTI_INLINE void pull_store(const spti_way *way, size_t at, shape_points x) {
+    spt_store(&way->x[at], x.x);
+    spt_store(&way->y[at], x.y);
+    spt_store(&way->z[at], x.z);
+}
+
+/* One level: mirror i is between kernel i + 1 and what level i holds, in whose space map i - 1 and
+ * kernel i follow; the topmost has no mirror, the lowest no map (Algorithm 3, which asks kernel i
+ * behind mirror i and kernel n never). */
+SPTI_INLINE void pull_vectors(const spti_stretch *stretch, int vectors, size_t at,
+                              const spti_way *way) {
+    shape_points points[2];
+    pull_scale scales[2];
+    spt_wide least[2], distances[2];
+    for (int v = 0; v < vectors; ++v) {
+        const size_t place = at + (size_t)v * SPT_LANES;
+        points[v] = pull_load(way, place);
+        scales[v].shrink = stretch->begins ? spt_splat(1.0f) : spt_load(&way->shrink[place]);
+        scales[v].reach = stretch->begins ? spt_splat(0.0f) : spt_load(&way->reach[place]);
+        least[v] = stretch->begins ? spt_splat(INFINITY) : spt_load(&way->distance[place]);
+    }
+    for (uint32_t level = stretch->first + 1; level-- > stretch->last;) {
+        for (int v = 0; v < vectors; ++v) {
+            if (level < stretch->levels) points[v] = pull_mirror(stretch, level, points[v]);
+            if (level == 0) continue;
+            points[v] = pull_level(&stretch->maps[level - 1], points[v], &scales[v]);
+        }
+        if (!shape_distances(&stretch->kernels[level], vectors, points, distances)) continue;
+        for (int v = 0; v < vectors; ++v) {
+            least[v] = spt_min(pull_radius(&scales[v], distances[v]), least[v]);
+        }
+    }
+    for (int v = 0; v < vectors; ++v) {
+        const size_t place = at + (size_t)v * SPT_LANES;
+        spt_store(&way->distance[place], least[v]);
+        if (!stretch->goes_on) continue;
+        pull_store(way, place, points[v]);
+        spt_store(&way->shrink[place], scales[v].shrink);
+        spt_store(&way->reach[place], scales[v].reach);
+    }
+}
+
+SPTI_INLINE void pull_stretch(const spti_stretch *stretch, size_t n, const spti_way *way) {
+    size_t at = 0;
+    for (; at + 2 * SPT_LANES <= n; at += 2 * SPT_LANES) pull_vectors(stretch, 2, at, way);
+    if (at < n) pull_vectors(stretch, 1, at, way);
+}
+
+/* The same for balls: clearance instead of distance. One that came out inside-out has none, whatever
+ * its numbers are afterwards. */
+SPTI_INLINE void pull_balls(const spti_stretch *stretch, int vectors, size_t at,
+                            const spti_way *way) {
+    const spt_wide none = spt_splat(-1.0f);
+    shape_points points[2];
+    pull_ball balls[2];
+    spt_wide least[2], distances[2];
+    for (int v = 0; v < vectors; ++v) {
+        const size_t place = at + (size_t)v * SPT_LANES;
+        points[v] = pull_load(way, place);
+        balls[v].radius = spt_load(&way->radius[place]);
+        balls[v].inside_out = spt_less(balls[v].radius, spt_splat(0.0f));
+        least[v] = stretch->begins ? spt_splat(INFINITY) : spt_load(&way->distance[place]);
+    }
+    for (uint32_t level = stretch->first + 1; level-- > stretch->last;) {
+        for (int v = 0; v < vectors; ++v) {
+            if (level < stretch->levels) points[v] = pull_mirror(stretch, level, points[v]);
+            if (level == 0) continue;
+            points[v] = pull_ball_level(&stretch->maps[level - 1], points[v], &balls[v]);
+        }
+        if (!shape_distances(&stretch->kernels[level], vectors, points, distances)) continue;
+        for (int v = 0; v < vectors; ++v) {
+            least[v] = spt_min(spt_sub(distances[v], balls[v].radius), least[v]);
+        }
+    }
+    for (int v = 0; v < vectors; ++v) {
+        const size_t place = at + (size_t)v * SPT_LANES;
+        const spt_mask inside_out = balls[v].inside_out;
+        spt_store(&way->distance[place], spt_select(inside_out, none, least[v]));
+        if (!stretch->goes_on) continue;
+        pull_store(way, place, points[v]);
+        /* The radius says so in the next stretch. */
+        spt_store(&way->radius[place], spt_select(inside_out, none, balls[v].radius));
+    }
+}
+
+SPTI_INLINE void probe_stretch(const spti_stretch *stretch, size_t n, const spti_way *way) {
+    size_t at = 0;
+    for (; at + 2 * SPT_LANES <= n; at += 2 * SPT_LANES) pull_balls(stretch, 2, at, way);
+    if (at < n) pull_balls(stretch, 1, at, way);
+}
+
+#endif

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What the files of this room share: points on their way through the levels of a model, and the
+ * kernels that take them there. */
+#ifndef SPTI_SEQUENCE_H
+#define SPTI_SEQUENCE_H
+
+#include <spheretrace/mobius.h>
+
+#include "../backend/isa.h"
+#include "../base/compiler.h"
+
+/* Levels of a model that follow each other without a caller's field between them: those numbered
+ * first down to last. Level i is the fold or map i, if i < levels, and kernel i. */
+typedef struct spti_stretch {
+    uint32_t levels; /* of the whole model */
+    uint32_t first, last;
+    int begins;  /* nothing was asked before: distance holds nothing yet */
+    int goes_on; /* points are needed afterwards */
+    const spt_built_kernel *kernels;
+    const spt_mirror *mirrors; /* of a KRS, or else: */
+    const spt_built_map *maps;
+    uint64_t unmirrored;
+} spti_stretch;
+
+/* Points on their way, at most SPT_BATCH, aligned. */
+typedef struct spti_way {
+    float *x, *y, *z;
+    float *distance; /* the least so far, of the world */
+    float
+        *shrink;  /* maps: lengths where the points are now are so many times those of the world, */
+    float *reach; /* and no free ball of the world is larger than one over this. Or, of probes, */
+    float *radius; /* what the ball has become there */
+} spti_way;
+
+/* Takes n points through a stretch. */
+typedef void spti_stretch_fn(const spti_stretch *stretch, size_t n, const spti_way *way);
+
+typedef struct spti_krs_kernels {
+    spti_stretch_fn *fold;  /* through mirrors */
+    spti_stretch_fn *pull;  /* through maps, for the bound of the distance */
+    spti_stretch_fn *probe; /* through maps, for balls */
+} spti_krs_kernels;
+
+/* By instruction set. */
+extern const spti_krs_kernels *const spti_krs_kernels_of[];
+
+/* Takes points through all levels, caller's fields included. n: a multiple of 16, or one point with
+ * max_lanes 1. */
+typedef enum spti_walk_kind { SPTI_WALK_FOLD, SPTI_WALK_PULL, SPTI_WALK_PROBE } spti_walk_kind;
+void spti_walk(const spti_stretch *model, spti_walk_kind kind, uint32_t max_lanes, size_t n,
+               const spti_way *way);
+
+/* Asks the caller's field of a kernel for n points, which are kept. lipschitz is divided by. */
+void spti_ask_kernel(const spt_built_kernel *kernel, size_t n, const spti_way *way,
+                     float *distance);
+
+/* Builds a kernel. Returns 0 where it breaks its rules. ball: receives a ball around it, of radius
+ * +infinity where it has no end, and -1 where it is empty. */
+typedef struct spti_ball {
+    double center[3], radius;
+} spti_ball;
+int spti_build_kernel(const spt_kernel *kernel, spt_built_kernel *built, spti_ball *ball);
+
+/* The smallest ball around two. */
+spti_ball spti_ball_around(const spti_ball *a, const spti_ball *b);
+
+/* The image of a ball; one that holds the pole has no end. */
+spti_ball spti_map_ball(const spti_ball *ball, const spt_mobius *map);
+
+/* As a bound, grown by what rounding may have cut; 0 where it has no end or is empty. */
+int spti_bound_of_ball(const spti_ball *ball, spt_bound *bound);
+
+/* Whether all field kernels have gradients. */
+int spti_have_gradients(const spt_built_kernel *kernels, uint32_t levels);
+
+#endif

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Points on their way through a model: in one stretch where all kernels are the library's own, else
+ * from one caller's field to the next. */
+#include <math.h>
+
+#include "../trace/driver.h"
+#include "sequence.h"
+
+/* Where the callback may scribble. */
+typedef struct walk_points {
+    SPTI_ALIGNED(64) float x[SPT_BATCH], y[SPT_BATCH], z[SPT_BATCH];
+} walk_points;
+
+static float in_range(float coordinate) {
+    /* Maps may take a point to where no callback can be asked. NaN does not come out of them. */
+    if (coordinate > FLT_MAX) return FLT_MAX;
+    return coordinate < -FLT_MAX ? -FLT_MAX : coordinate;
+}
+
+void spti_ask_kernel(const spt_built_kernel *kernel, size_t n, const spti_way *way,
+                     float *distance) {
+    walk_points points;
+    spt_field field = spt_field_default();
+    field.batch = kernel->batch;
+    field.point = kernel->point;
+    field.user = kernel->user;
+    for (size_t i = 0; i < n; ++i) {
+        points.x[i] = in_range(way->x[i]);
+        points.y[i] = in_range(way->y[i]);
+        points.z[i] = in_range(way->z[i]);
+    }
+    spti_ask(&field, n, points.x, points.y, points.z, distance);
+    for (size_t i = 0; i < n; ++i) distance[i] /= kernel->lipschitz;
+}
+
+/* What a bound of the distance is in the world, as in pull_kernel.h. */
+static float in_world(float k, float shrink, float reach) {
+    if (k > 0x1p64f) k = 0x1p64f;
+    return k / (shrink + reach * fabsf(k));
+}
+
+static SPTI_NOINLINE void join_field(const spt_built_kernel *kernel, spti_walk_kind kind, size_t n,
+                                     const spti_way *way) {
+    SPTI_ALIGNED(64) float asked[SPT_BATCH];
+    spti_ask_kernel(kernel, n, way, asked);
+    for (size_t i = 0; i < n; ++i) {
+        float k = asked[i];
+        if (kind == SPTI_WALK_PULL) k = in_world(k, way->shrink[i], way->reach[i]);
+        if (kind == SPTI_WALK_PROBE) {
+            if (way->radius[i] < 0.0f) continue;
+            k -= way->radius[i];
+        }
+        /* NaN is taken, and stays. */
+        if (!(way->distance[i] <= k)) way->distance[i] = k;
+    }
+}
+
+void spti_walk(const spti_stretch *model, spti_walk_kind kind, uint32_t max_lanes, size_t n,
+               const spti_way *way) {
+    const spti_krs_kernels *const kernels = spti_krs_kernels_of[spti_isa_choose(max_lanes)];
+    spti_stretch_fn *const through = kind == SPTI_WALK_FOLD   ? kernels->fold
+                                     : kind == SPTI_WALK_PULL ? kernels->pull
+                                                              : kernels->probe;
+    spti_stretch stretch = *model;
+    stretch.begins = 1;
+    for (uint32_t level = model->levels + 1; level-- > 0;) {
+        const int asks = model->kernels[level].kind == SPT_KERNEL_FIELD;
+        if (level > 0 && !asks) continue;
+        stretch.last = level;
+        stretch.goes_on = asks;
+        through(&stretch, n, way);
+        if (asks) join_field(&model->kernels[level], kind, n, way);
+        stretch.first = level - 1;
+        stretch.begins = 0;
+    }
+}
