@@ -14,7 +14,8 @@
  * image of what does not, and the distance is a lower bound of that to the geometry so cut, still
  * with Lipschitz constant 1; corals, rocks and terrain are made so (section 9.1). The paper calls
  * it an underestimate; of the distance to the union without cuts it is an overestimate.
- * spt_krs.straddles tells which levels may be cut, spt_krs_check() how much of them is.
+ * spt_krs.straddles tells which levels may be cut, by balls around all of a level, which says
+ * little of the upper ones; spt_krs_check() samples how much is.
  *
  * LEVEL OF DETAIL comes from settings.pixel_radius: rays stop at half a pixel, which thickens what
  * is thinner and merges what is closer, continuously with the distance (section 4). What is shaded
@@ -45,7 +46,7 @@ typedef enum spt_kernel_kind {
                                 * where control is on their line: a toroidal capsule (9.2) */
     SPT_KERNEL_LEAF = 4,       /* within radius of a flat leaf with tips a and b, bounded by two
                                 * arcs, `width` to each side of the middle; control: a vector across
-                                * its plane, of any length but zero */
+                                * its plane, whose part along the tips does not count */
     SPT_KERNEL_FIELD = 5       /* a caller's field; lipschitz is divided by */
 } spt_kernel_kind;
 #define SPT_KERNEL_KINDS 6
@@ -53,8 +54,8 @@ typedef enum spt_kernel_kind {
 /* A kernel as the caller describes it. Make one with the functions below, which zero what a kind
  * does not use. Lengths in world units, 0 or from 1e-15 to 1e18; coordinates below 1e18. Refused
  * with SPT_BAD_ARGUMENT where it is used: a non-finite number, radius < 0 (but of a half space),
- * width <= 0 or more than half the distance of the tips, tips that coincide, a vector of no length,
- * a field that spt_trace() would refuse. */
+ * width <= 0 or more than half the distance of the tips, tips that coincide, a vector of no length
+ * (or along the tips), a field that spt_trace() would refuse. */
 typedef struct spt_kernel {
     uint32_t kind; /* spt_kernel_kind */
     float a[3], b[3], control[3];
@@ -188,8 +189,8 @@ SPT_API spt_status spt_krs_build(const spt_krs_model *model, spt_krs *krs);
  * kernels have one, a gradient callback, which sees smooth. krs is not copied: it must stay where
  * it is as long as the field is used. The callbacks keep equal bits at every width.
  *     d = K_n(p);  for i = n-1 .. 0:  fold p at mirror i;  d = min(d, K_i(p))      (Algorithm 1)
- * without branches. |d - exact| <= 2^-22 (n + 4) max(|p| + largest |offset|, 1).
- * Cost: about 1 ns a level of capsules and evaluation with 16 lanes. */
+ * without branches. |d - exact| <= 2^-22 (n + 4) max(|p| + largest |offset|, how far kernels reach,
+ * 1). Cost: about 1 ns a level of capsules and evaluation with 16 lanes. */
 SPT_API spt_field spt_krs_field(const spt_krs *krs);
 
 /* How many kernel instances a model of so many levels has, 2^(levels + 1) - 1; at 64 levels it is
@@ -199,7 +200,8 @@ SPT_API double spt_krs_instances(uint32_t levels);
 /* What a sampled check of a model found: of points on the surfaces of the instances that L_i has,
  * how many lie beyond mirror i, and so are cut off. */
 typedef struct spt_krs_faults {
-    uint32_t samples[SPT_KRS_LEVELS];   /* points of L_i that were looked at */
+    uint32_t samples[SPT_KRS_LEVELS];   /* points of L_i that were looked at, those that a lower
+                                         * mirror cut off left out */
     uint32_t discarded[SPT_KRS_LEVELS]; /* those beyond mirror i by more than rounding explains */
     float depth[SPT_KRS_LEVELS];        /* how far beyond, at most, world length; 0: none */
     float worst[SPT_KRS_LEVELS][3];     /* where, in the space of L_i */

@@ -255,8 +255,8 @@ typedef struct spt_binary {
     size_t struct_size; /* set by spt_binary_default() */
     float bonus;   /* how much larger a probe is after one that was free, in (1, 8]. Default 2 */
     float penalty; /* and after one that was not, in (0, 1). Default 0.3 */
-    float probe_ratio; /* the ray ends at probes of this times the tolerance, in (0, 1]. Default
-                         * 0.1 */
+    float probe_ratio; /* the ray ends at probes of this times the tolerance, or of what t
+                         * resolves, in (0, 1]. Default 0.1 */
     float first;       /* radius of the first probe, world length, >= 0. Default 0: half the bound's
                          * largest half side, or, without a bound, an eighth of the ray */
 } spt_binary;
@@ -282,7 +282,7 @@ static inline spt_binary spt_binary_default(void) {
  *               flags SPT_FLAG_INSIDE where not even the point at t_min is free; fallbacks the
  *                        probes that were not free, candidates +infinity
  *               SPT_LIMIT up to t the ray is free
- *               A ray that begins inside, or within the tolerance, ends at t_min as SPT_HIT
+ *               A ray that begins inside ends at t_min as SPT_HIT
  * Returns SPT_BAD_ARGUMENT as spt_trace() does.
  * Cost: about twice the evaluations of sphere tracing; use spt_moekrs_field() where there is one.
  * */
@@ -336,8 +336,9 @@ SPT_API spt_status spt_moekrs_build(const spt_moekrs_model *model, spt_moekrs *m
 /* The model as a field: a lower bound of the distance, lipschitz 1, in one pass without branches,
  * which tends to the distance at the surface and is 0.7 of it as a median; with it every step rule,
  * cone and frame traces MöKRS, which the paper holds to be impossible. moekrs is not copied. It is
- * never above the distance by more than 2^-20 (1 + |p| |c|) world units, c the largest of the maps.
- * Cost: about 3 ns a level and evaluation with 16 lanes. */
+ * above the distance by rounding only: by about 2^-20 of the coordinates that the levels see, as
+ * lengths in the world. At the image of infinity itself, where kernel space has no point, it is 0.
+ * Cost: about 1.5 ns a level and evaluation with 16 lanes. */
 SPT_API spt_field spt_moekrs_field(const spt_moekrs *moekrs);
 
 /* The model as a body that answers probes (Algorithm 3, mended): a ball is carried through the

@@ -47,7 +47,7 @@ static float first_radius(const spti_chunk *chunk, const spti_march *march, size
 }
 
 /* What comes of a ray's probe. */
-typedef enum binary_end { GOES_ON, HITS, MISSES, IS_NONFINITE, STALLS } binary_end;
+typedef enum binary_end { GOES_ON, HITS, MISSES, IS_NONFINITE } binary_end;
 
 /* A probe that was not free ends the ray if none smaller is worth trying. */
 static binary_end end_at(spti_chunk *chunk, size_t slot, float clearance) {
@@ -80,8 +80,8 @@ static binary_end feel(spti_chunk *chunk, const spti_march *march, size_t slot) 
     if (radius > most) radius = most;
     /* The tolerance may have grown by more than the bonus. */
     if (is_free && radius < 2.0f * least) radius = 2.0f * least;
-    if (!(radius > least)) return end_at(chunk, slot, clearance);
-    if (!(t + 2.0f * radius > t)) return STALLS;
+    /* Or none that t resolves. */
+    if (!(radius > least) || !(t + 2.0f * radius > t)) return end_at(chunk, slot, clearance);
     chunk->array[RADIUS][slot] = radius;
     spti_slot_point(chunk, slot, slot, t + radius);
     return GOES_ON;

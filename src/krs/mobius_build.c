@@ -81,10 +81,10 @@ static double round_entry(spt_quaternion q, float rounded[4]) {
     return sqrt(square);
 }
 
-/* a c^-1; 0 where float cannot hold it. */
-static int round_pole(const spt_mobius *map, double c_length, float pole[3]) {
-    const spt_quaternion product = spt_quaternion_scaled(
-        spt_quaternion_product(map->a, spt_quaternion_conjugate(map->c)), 1.0 / c_length);
+/* p q / |c|^2; 0 where float cannot hold it. */
+static int round_pole(spt_quaternion p, spt_quaternion q, double c_length, float pole[3]) {
+    const spt_quaternion product =
+        spt_quaternion_scaled(spt_quaternion_product(p, q), 1.0 / c_length);
     const double image[3] = {product.x / c_length, product.y / c_length, product.z / c_length};
     int axis;
     for (axis = 0; axis < 3; ++axis) {
@@ -110,8 +110,17 @@ int spti_build_map(const spt_mobius *map, spt_built_map *built) {
     round_entry(map->d, result.d);
     result.c_length = (float)c_length;
     result.orientation = (float)map->orientation;
-    for (axis = 0; axis < 3; ++axis) result.pole[axis] = INFINITY;
-    if (c_length > 0.0 && !round_pole(map, c_length, result.pole)) return 0;
+    for (axis = 0; axis < 3; ++axis) {
+        result.pole[axis] = INFINITY;
+        result.center[axis] = 0.0f;
+    }
+    if (c_length > 0.0) {
+        /* L and its inverse at infinity: a c^-1 and d* c*^-1 */
+        const spt_quaternion conjugate = spt_quaternion_conjugate(map->c);
+        const spt_quaternion back = spt_quaternion_conjugate(map->d);
+        if (!round_pole(map->a, conjugate, c_length, result.pole)) return 0;
+        if (!round_pole(back, map->c, c_length, result.center)) return 0;
+    }
     /* u = a - p c is off by about 2^-23 |a| where it cancels, p being float. */
     least = 0x1p-22 * a_length;
     if (least < 0x1p-60 * c_length) least = 0x1p-60 * c_length;

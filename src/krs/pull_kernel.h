@@ -120,11 +120,15 @@ SPTI_INLINE shape_points pull_ball_level(const spt_built_map *map, shape_points 
     /* What means nothing any more must not shrink to where processors are slow. */
     const spt_wide share = spt_select(ball->inside_out, spt_splat(0.0f), spt_mul(m, growth));
     const spt_wide radius = spt_mul(spt_mul(ball->radius, inverse), growth);
-    ball->radius = spt_select(ball->inside_out, one, radius);
-    const shape_points image = {
-        spt_add(q.x, spt_mul(spt_sub(q.x, spt_splat(map->center[0])), share)),
-        spt_add(q.y, spt_mul(spt_sub(q.y, spt_splat(map->center[1])), share)),
-        spt_add(q.z, spt_mul(spt_sub(q.z, spt_splat(map->center[2])), share))};
+    const shape_points shift = {spt_mul(spt_sub(q.x, spt_splat(map->center[0])), share),
+                                spt_mul(spt_sub(q.y, spt_splat(map->center[1])), share),
+                                spt_mul(spt_sub(q.z, spt_splat(map->center[2])), share)};
+    /* What rounding of m does to both is growth times larger: so much the ball is made larger. */
+    const spt_wide far = spt_add(spt_add(spt_abs(shift.x), spt_abs(shift.y)), spt_abs(shift.z));
+    const spt_wide noise = spt_mul(spt_mul(growth, spt_splat(0x1p-21f)), spt_add(far, radius));
+    ball->radius = spt_select(ball->inside_out, one, spt_add(radius, noise));
+    const shape_points image = {spt_add(q.x, shift.x), spt_add(q.y, shift.y),
+                                spt_add(q.z, shift.z)};
     return image;
 }
 
