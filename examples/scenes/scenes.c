@@ -34,24 +34,43 @@
                                              .point = scene_##scene_name##_point, \
                                              .reference = scene_##scene_name##_reference, \
                                              __VA_ARGS__};
+#define SCENE_BUILT(scene_name, ...) \
+    scene_field_fn scene_##scene_name##_field; \
+    scene_reference_fn scene_##scene_name##_reference; \
+    static const scene scene_name##_entry = {.name = #scene_name, \
+                                             .field = scene_##scene_name##_field, \
+                                             .reference = scene_##scene_name##_reference, \
+                                             __VA_ARGS__};
 #include "scenes_list.h"
 
 const scene *const scenes[] = {
 #define SCENE(name, ...) &name##_entry,
+#define SCENE_UNLISTED(name, ...)
 #include "scenes_list.h"
 };
 const size_t scene_count = sizeof scenes / sizeof scenes[0];
 
+static const scene *const unlisted[] = {
+#define SCENE(name, ...)
+#define SCENE_UNLISTED(name, ...) &name##_entry,
+#include "scenes_list.h"
+};
+
 const scene *scene_named(const char *name) {
     for (size_t i = 0; i < scene_count; ++i) {
         if (strcmp(scenes[i]->name, name) == 0) return scenes[i];
+    }
+    for (size_t i = 0; i < sizeof unlisted / sizeof unlisted[0]; ++i) {
+        if (strcmp(unlisted[i]->name, name) == 0) return unlisted[i];
     }
     return NULL;
 }
 
 spt_field scene_field(const scene *shown, int lanes) {
     spt_field field = spt_field_default();
-    if (lanes == 0) {
+    if (shown->field != NULL) {
+        field = shown->field(lanes);
+    } else if (lanes == 0) {
         field.point = shown->point;
     } else {
         field.batch = shown->batch[batch_index(lanes)];

@@ -12,6 +12,9 @@
 typedef void scene_reference_fn(size_t n, const double *x, const double *y, const double *z,
                                 double *distance);
 
+/* A field for a width, or, for lanes 0, for one point. */
+typedef spt_field scene_field_fn(int lanes);
+
 typedef struct scene {
     const char *name;
     const char *description;
@@ -24,6 +27,7 @@ typedef struct scene {
     spt_distance_batch_fn *batch[4]; /* built for 1, 4, 8 and 16 lanes; the widest that was built
                                       * stands in for a wider one */
     spt_distance_fn *point;          /* one point */
+    scene_field_fn *field;           /* builds what has no callbacks of its own, or NULL */
     scene_reference_fn *reference;
 } scene;
 
@@ -35,7 +39,8 @@ extern const size_t scene_count;
 const scene *scene_named(const char *name);
 
 /* Its field with the batch callback built for a width (1, 4, 8, 16: pass spt_lanes()), or, for
- * lanes 0, with the callback for one point. */
+ * lanes 0, with the callback for one point. Where the scene has to be built first, so by the first
+ * call, and that of `reference`: they must not come from two threads at once. */
 spt_field scene_field(const scene *scene, int lanes);
 
 /* The rays of a pinhole camera, at the pixel centres, unit directions, row by row from the top;

@@ -59,6 +59,9 @@
     } \
     POINT_CALLBACK(name)
 
+/* These come from the library. */
+#define SCENE_BUILT(name, ...)
+
 #include "scenes_list.h"
 
 /* The components that scenes are taken apart into. Those of a table share a source; user is the

@@ -6,14 +6,17 @@
 #include "scene_source.h"
 #include "scenes.h"
 
-#define SCENE(name, ...) \
+#define REFERENCE_OF(name, prepare) \
     scene_reference_fn scene_##name##_reference; \
     void scene_##name##_reference(size_t n, const double *x, const double *y, const double *z, \
                                   double *distance) { \
+        prepare; \
         for (size_t i = 0; i < n; ++i) { \
             distance[i] = scene_##name##_distance(spt_point_of(x[i], y[i], z[i])); \
         } \
     }
+#define SCENE(name, ...) REFERENCE_OF(name, (void)0)
+#define SCENE_BUILT(name, ...) REFERENCE_OF(name, scene_##name##_prepare())
 #include "scenes_list.h"
 
 #define PART_LOOP(part, value) \

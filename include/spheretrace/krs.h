@@ -171,6 +171,7 @@ typedef struct spt_krs {
     uint32_t max_lanes;
     uint64_t straddles; /* bit i: as far as enclosing balls tell, L_i may reach beyond mirror i */
     float smooth;
+    uint32_t field_kernels;             /* how many kernels are callers' fields */
     int32_t bounded;                    /* whether the model has an end: */
     spt_bound bound;                    /* then this contains it */
     spt_mirror mirrors[SPT_KRS_LEVELS]; /* of unit normals */

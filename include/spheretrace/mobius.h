@@ -186,6 +186,7 @@ typedef struct spt_built_map {
     float pole[3];                /* L(infinity); +infinity where c = 0 */
     float center[3];              /* L^-1(infinity); 0 where c = 0 */
     float least;                  /* of |a - p c|: nearer to the pole that is rounding */
+    float whole[4]; /* a ball in which all is that was mapped: center, radius; or FLT_MAX */
 } spt_built_map;
 
 /* A field in a space that a map takes to the world: the caller's memory, about 0.5 KiB. max_lanes,
@@ -321,8 +322,9 @@ typedef struct spt_moekrs {
     uint64_t unmirrored;
     uint64_t straddles; /* bit i: as far as enclosing balls tell, L_i may reach beyond x = 0 */
     float smooth;
-    int32_t bounded; /* whether the model has an end that enclosing balls find: */
-    spt_bound bound; /* then this contains it */
+    uint32_t field_kernels; /* how many kernels are callers' fields */
+    int32_t bounded;        /* whether the model has an end that enclosing balls find: */
+    spt_bound bound;        /* then this contains it */
     spt_built_map maps[SPT_KRS_LEVELS];
     spt_built_kernel kernels[SPT_KRS_LEVELS + 1];
 } spt_moekrs;

@@ -21,12 +21,17 @@ static spti_stretch stretch_of(const spt_conformal *conformal) {
 /* Points on their way to the field, and the field's answer there. */
 typedef struct conformal_points {
     SPTI_ALIGNED(64) float x[SPT_BATCH], y[SPT_BATCH], z[SPT_BATCH];
-    SPTI_ALIGNED(64) float shrink[SPT_BATCH], reach[SPT_BATCH];
+    SPTI_ALIGNED(64) float shrink[SPT_BATCH], reach[SPT_BATCH], clear[SPT_BATCH];
 } conformal_points;
 
 static spti_way way_of(conformal_points *points, float *distance) {
-    const spti_way way = {points->x,      points->y,     points->z, distance,
-                          points->shrink, points->reach, NULL};
+    const spti_way way = {.x = points->x,
+                          .y = points->y,
+                          .z = points->z,
+                          .distance = distance,
+                          .shrink = points->shrink,
+                          .reach = points->reach,
+                          .clear = points->clear};
     return way;
 }
 
@@ -64,6 +69,7 @@ spt_status spt_conformal_field(const spt_field *field, const spt_mobius *map, sp
     if (!spti_build_kernel(&inner, &made.kernels[0], &ball)) return SPT_BAD_ARGUMENT;
     if (!spti_build_map(map, &made.map)) return SPT_BAD_ARGUMENT;
     ball = spti_map_ball(&ball, map);
+    spti_map_whole(&ball, &made.map);
     const int bounded = spti_bound_of_ball(&ball, &made.bound);
     *memory = made;
     *result = spt_field_default();
@@ -122,6 +128,9 @@ static void ask_exits(void *user, size_t n, const float *x, const float *y, cons
     for (size_t slot = 0; slot < n; ++slot) {
         const float k = rho[slot] > 0x1p64f ? 0x1p64f : rho[slot];
         distance[slot] = k / (points.shrink[slot] + points.reach[slot] * fabsf(k));
+        if (points.clear[slot] > 0.0f && distance[slot] < points.clear[slot]) {
+            distance[slot] = points.clear[slot];
+        }
         chunk->array[SPTI_MEMORY][slot] =
             exit_of(chunk, slot, &conformal->map, k, points.shrink[slot], points.reach[slot]);
     }

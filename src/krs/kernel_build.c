@@ -210,6 +210,15 @@ spti_ball spti_map_ball(const spti_ball *ball, const spt_mobius *map) {
     return image;
 }
 
+void spti_map_whole(const spti_ball *ball, spt_built_map *map) {
+    spt_bound bound;
+    memset(map->whole, 0, sizeof map->whole);
+    map->whole[3] = FLT_MAX;
+    if (!spti_bound_of_ball(ball, &bound)) return;
+    memcpy(map->whole, bound.center, sizeof bound.center);
+    map->whole[3] = bound.radius;
+}
+
 int spti_bound_of_ball(const spti_ball *ball, spt_bound *bound) {
     spt_bound sphere;
     double largest = ball->radius;
@@ -224,6 +233,14 @@ int spti_bound_of_ball(const spti_ball *ball, spt_bound *bound) {
     sphere = spt_bound_sphere((float)ball->center[0], (float)ball->center[1],
                               (float)ball->center[2], radius > FLT_MIN ? radius : FLT_MIN);
     return spti_bound_copy(bound, &sphere);
+}
+
+uint32_t spti_count_fields(const spt_built_kernel *kernels, uint32_t levels) {
+    uint32_t count = 0;
+    for (uint32_t level = 0; level <= levels; ++level) {
+        count += kernels[level].kind == SPT_KERNEL_FIELD;
+    }
+    return count;
 }
 
 int spti_have_gradients(const spt_built_kernel *kernels, uint32_t levels) {

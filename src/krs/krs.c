@@ -80,6 +80,7 @@ spt_status spt_krs_build(const spt_krs_model *model, spt_krs *krs) {
     built.max_lanes = copy.max_lanes;
     built.smooth = copy.smooth;
     if (!build_levels(&copy, &built)) return SPT_BAD_ARGUMENT;
+    built.field_kernels = spti_count_fields(built.kernels, built.levels);
     if (built.smooth > 0.0f && !spti_have_gradients(built.kernels, built.levels)) {
         return SPT_BAD_ARGUMENT;
     }
@@ -98,22 +99,38 @@ static spti_stretch stretch_of(const spt_krs *krs) {
     return model;
 }
 
-static void krs_distance(void *user, size_t n, const float *x, const float *y, const float *z,
-                         float *distance) {
-    const spt_krs *const krs = user;
+/* Where a caller's field is asked in between. */
+static SPTI_NOINLINE void distance_with_fields(const spt_krs *krs, size_t n, const float *x,
+                                               const float *y, const float *z, float *distance) {
     const spti_stretch model = stretch_of(krs);
     SPTI_ALIGNED(64) float folded[3][SPT_BATCH];
-    const spti_way way = {folded[0], folded[1], folded[2], distance, NULL, NULL, NULL};
+    const spti_way way = {.x = folded[0], .y = folded[1], .z = folded[2], .distance = distance};
     memcpy(folded[0], x, n * sizeof *x);
     memcpy(folded[1], y, n * sizeof *y);
     memcpy(folded[2], z, n * sizeof *z);
     spti_walk(&model, SPTI_WALK_FOLD, krs->max_lanes, n, &way);
 }
 
+static void krs_distance(void *user, size_t n, const float *x, const float *y, const float *z,
+                         float *distance) {
+    const spt_krs *const krs = user;
+    if (krs->field_kernels != 0) {
+        distance_with_fields(krs, n, x, y, z, distance);
+        return;
+    }
+    /* In one stretch points stay in registers. */
+    const spti_stretch model = stretch_of(krs);
+    const spti_way way = {.x = spti_unwritten(x),
+                          .y = spti_unwritten(y),
+                          .z = spti_unwritten(z),
+                          .distance = distance};
+    spti_walk(&model, SPTI_WALK_FOLD, krs->max_lanes, n, &way);
+}
+
 static float krs_point(void *user, float x, float y, float z) {
     const spti_stretch model = stretch_of(user);
     SPTI_ALIGNED(64) float distance[SPTI_GROUP];
-    const spti_way way = {&x, &y, &z, distance, NULL, NULL, NULL};
+    const spti_way way = {.x = &x, .y = &y, .z = &z, .distance = distance};
     spti_walk(&model, SPTI_WALK_FOLD, 1, 1, &way);
     return distance[0];
 }

@@ -130,7 +130,7 @@ void spti_find_place(const spti_stretch *model, const float point[3], float smoo
     const locate_widths widths = {(double)smooth, (double)footprint};
     locate_trail trail;
     shape_points x = {point[0], point[1], point[2]};
-    pull_scale scale = {1.0f, 0.0f};
+    pull_scale scale = {1.0f, 0.0f, 0.0f};
     float least = INFINITY;
     uint64_t used = 0;
     memset(place, 0, sizeof *place);

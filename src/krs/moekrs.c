@@ -37,6 +37,7 @@ static int build_levels(const spt_moekrs_model *model, spt_moekrs *moekrs) {
         if (straddles) moekrs->straddles |= UINT64_C(1) << level;
         whole = spti_ball_around(&whole, &kernel);
         whole = spti_map_ball(&whole, &model->maps[level]);
+        spti_map_whole(&whole, &moekrs->maps[level]);
     }
     moekrs->bounded = spti_bound_of_ball(&whole, &moekrs->bound);
     return 1;
@@ -57,6 +58,7 @@ spt_status spt_moekrs_build(const spt_moekrs_model *model, spt_moekrs *moekrs) {
     built.unmirrored = copy.unmirrored;
     built.smooth = copy.smooth;
     if (!build_levels(&copy, &built)) return SPT_BAD_ARGUMENT;
+    built.field_kernels = spti_count_fields(built.kernels, built.levels);
     if (built.smooth > 0.0f && !spti_have_gradients(built.kernels, built.levels)) {
         return SPT_BAD_ARGUMENT;
     }
@@ -77,7 +79,7 @@ static spti_stretch stretch_of(const spt_moekrs *moekrs) {
 /* Points that may be written, and what goes with them. */
 typedef struct moekrs_points {
     SPTI_ALIGNED(64) float x[SPT_BATCH], y[SPT_BATCH], z[SPT_BATCH];
-    SPTI_ALIGNED(64) float shrink[SPT_BATCH], reach[SPT_BATCH];
+    SPTI_ALIGNED(64) float shrink[SPT_BATCH], reach[SPT_BATCH], clear[SPT_BATCH];
 } moekrs_points;
 
 static void copy_points(moekrs_points *points, size_t n, const float *x, const float *y,
@@ -87,21 +89,48 @@ static void copy_points(moekrs_points *points, size_t n, const float *x, const f
     memcpy(points->z, z, n * sizeof *z);
 }
 
+/* Where a caller's field is asked in between. */
+static SPTI_NOINLINE void distance_with_fields(const spt_moekrs *moekrs, size_t n, const float *x,
+                                               const float *y, const float *z, float *distance) {
+    const spti_stretch model = stretch_of(moekrs);
+    moekrs_points points;
+    const spti_way way = {.x = points.x,
+                          .y = points.y,
+                          .z = points.z,
+                          .distance = distance,
+                          .shrink = points.shrink,
+                          .reach = points.reach,
+                          .clear = points.clear};
+    copy_points(&points, n, x, y, z);
+    spti_walk(&model, SPTI_WALK_PULL, moekrs->max_lanes, n, &way);
+}
+
 static void moekrs_distance(void *user, size_t n, const float *x, const float *y, const float *z,
                             float *distance) {
     const spt_moekrs *const moekrs = user;
+    if (moekrs->field_kernels != 0) {
+        distance_with_fields(moekrs, n, x, y, z, distance);
+        return;
+    }
+    /* In one stretch all stays in registers. */
     const spti_stretch model = stretch_of(moekrs);
-    moekrs_points points;
-    const spti_way way = {points.x,      points.y,     points.z, distance,
-                          points.shrink, points.reach, NULL};
-    copy_points(&points, n, x, y, z);
+    const spti_way way = {.x = spti_unwritten(x),
+                          .y = spti_unwritten(y),
+                          .z = spti_unwritten(z),
+                          .distance = distance};
     spti_walk(&model, SPTI_WALK_PULL, moekrs->max_lanes, n, &way);
 }
 
 static float moekrs_point(void *user, float x, float y, float z) {
     const spti_stretch model = stretch_of(user);
-    float distance, shrink, reach;
-    const spti_way way = {&x, &y, &z, &distance, &shrink, &reach, NULL};
+    float distance, shrink, reach, clear;
+    const spti_way way = {.x = &x,
+                          .y = &y,
+                          .z = &z,
+                          .distance = &distance,
+                          .shrink = &shrink,
+                          .reach = &reach,
+                          .clear = &clear};
     spti_walk(&model, SPTI_WALK_PULL, 1, 1, &way);
     return distance;
 }
@@ -129,7 +158,11 @@ static void moekrs_clearance(void *user, size_t n, const float *x, const float *
     const spt_moekrs *const moekrs = user;
     const spti_stretch model = stretch_of(moekrs);
     moekrs_points points;
-    const spti_way way = {points.x, points.y, points.z, clearance, NULL, NULL, points.shrink};
+    const spti_way way = {.x = points.x,
+                          .y = points.y,
+                          .z = points.z,
+                          .distance = clearance,
+                          .radius = points.shrink};
     copy_points(&points, n, x, y, z);
     memcpy(points.shrink, radius, n * sizeof *radius);
     spti_walk(&model, SPTI_WALK_PROBE, moekrs->max_lanes, n, &way);
@@ -138,7 +171,7 @@ static void moekrs_clearance(void *user, size_t n, const float *x, const float *
 static float moekrs_clearance_at(void *user, float x, float y, float z, float radius) {
     const spti_stretch model = stretch_of(user);
     float clearance;
-    const spti_way way = {&x, &y, &z, &clearance, NULL, NULL, &radius};
+    const spti_way way = {.x = &x, .y = &y, .z = &z, .distance = &clearance, .radius = &radius};
     spti_walk(&model, SPTI_WALK_PROBE, 1, 1, &way);
     return clearance;
 }

@@ -118,7 +118,7 @@ float spti_kernel_distance(const spt_built_kernel *kernel, const float point[3])
     const shape_points at = {point[0], point[1], point[2]};
     float distance = INFINITY;
     float x = point[0], y = point[1], z = point[2];
-    const spti_way way = {&x, &y, &z, NULL, NULL, NULL, NULL};
+    const spti_way way = {.x = &x, .y = &y, .z = &z};
     if (shape_distances(kernel, 1, &at, &distance)) return distance;
     spti_ask_kernel(kernel, 1, &way, asked);
     return asked[0];

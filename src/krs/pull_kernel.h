@@ -81,16 +81,8 @@ SPTI_INLINE shape_points pull_point(const spt_built_map *map, shape_points x, pu
 /* What is joined at each level: a bound of the distance in the world, */
 typedef struct pull_scale {
     spt_wide shrink, reach;
+    spt_wide clear; /* the radius of a ball in the world that holds nothing of what is to come */
 } pull_scale;
-
-SPTI_INLINE shape_points pull_level(const spt_built_map *map, shape_points x, pull_scale *scale) {
-    spt_wide inverse;
-    const pull_quaternion u = pull_denominator(map, x, &inverse);
-    const spt_wide bend = spt_mul(spt_splat(map->c_length), spt_sqrt(inverse));
-    scale->reach = spt_add(scale->reach, spt_mul(scale->shrink, bend));
-    scale->shrink = spt_mul(scale->shrink, inverse);
-    return pull_point(map, x, u, inverse);
-}
 
 /* The radius of the ball in the world that a distance at the end of the way leaves free. Beyond 2^64
  * it counts as that, so that infinity, which is legal, is not divided by infinity. */
@@ -99,10 +91,41 @@ SPTI_INLINE spt_wide pull_radius(const pull_scale *scale, spt_wide distance) {
     return spt_div(k, spt_add(scale->shrink, spt_mul(scale->reach, spt_abs(k))));
 }
 
+/* How far a point is from the ball around all that a map has mapped. */
+SPTI_INLINE spt_wide pull_from_whole(const spt_built_map *map, shape_points x) {
+    const spt_wide dx = spt_sub(x.x, spt_splat(map->whole[0]));
+    const spt_wide dy = spt_sub(x.y, spt_splat(map->whole[1]));
+    const spt_wide dz = spt_sub(x.z, spt_splat(map->whole[2]));
+    const spt_wide square = spt_add(spt_add(spt_mul(dx, dx), spt_mul(dy, dy)), spt_mul(dz, dz));
+    return spt_sub(spt_sqrt(square), spt_splat(map->whole[3]));
+}
+
+/* Near the map's pole a preimage is far from everything, and yet the ball around it that is free
+ * does not hold infinity, which is what is near: there the ball around all tells more. */
+SPTI_INLINE shape_points pull_level(const spt_built_map *map, shape_points x, pull_scale *scale) {
+    spt_wide inverse;
+    const pull_quaternion u = pull_denominator(map, x, &inverse);
+    const spt_wide bend = spt_mul(spt_splat(map->c_length), spt_sqrt(inverse));
+    if (map->c_length > 0.0f) { /* else there is no pole */
+        scale->clear = spt_max(pull_radius(scale, pull_from_whole(map, x)), scale->clear);
+    }
+    scale->reach = spt_add(scale->reach, spt_mul(scale->shrink, bend));
+    scale->shrink = spt_mul(scale->shrink, inverse);
+    return pull_point(map, x, u, inverse);
+}
+
+/* A kernel's part of the bound. */
+SPTI_INLINE spt_wide pull_bound(const pull_scale *scale, spt_wide distance) {
+    const spt_wide radius = pull_radius(scale, distance);
+    const spt_mask outside = spt_less(spt_splat(0.0f), scale->clear);
+    return spt_select(outside, spt_max(radius, scale->clear), radius);
+}
+
 /* or the clearance of a ball, -1 where it came out inside-out. */
 typedef struct pull_ball {
     spt_wide radius;
     spt_mask inside_out;
+    spt_mask clear; /* it meets nothing of what is still to come */
 } pull_ball;
 
 SPTI_INLINE shape_points pull_ball_level(const spt_built_map *map, shape_points x,
@@ -112,6 +135,8 @@ SPTI_INLINE shape_points pull_ball_level(const spt_built_map *map, shape_points 
     spt_wide inverse;
     const pull_quaternion u = pull_denominator(map, x, &inverse);
     const shape_points q = pull_point(map, x, u, inverse);
+    const spt_mask away = spt_less(ball->radius, pull_from_whole(map, x));
+    ball->clear = spt_mask_or(ball->clear, spt_mask_and_not(away, ball->inside_out));
     /* m < 1: the ball does not reach the pole */
     const spt_wide square = spt_mul(ball->radius, ball->radius);
     const spt_wide m = spt_mul(spt_mul(square, c_square), inverse);
@@ -162,6 +187,7 @@ SPTI_INLINE void pull_vectors(const spti_stretch *stretch, int vectors, size_t a
         points[v] = pull_load(way, place);
         scales[v].shrink = stretch->begins ? spt_splat(1.0f) : spt_load(&way->shrink[place]);
         scales[v].reach = stretch->begins ? spt_splat(0.0f) : spt_load(&way->reach[place]);
+        scales[v].clear = stretch->begins ? spt_splat(0.0f) : spt_load(&way->clear[place]);
         least[v] = stretch->begins ? spt_splat(INFINITY) : spt_load(&way->distance[place]);
     }
     for (uint32_t level = stretch->first + 1; level-- > stretch->last;) {
@@ -172,7 +198,7 @@ SPTI_INLINE void pull_vectors(const spti_stretch *stretch, int vectors, size_t a
         }
         if (!shape_distances(&stretch->kernels[level], vectors, points, distances)) continue;
         for (int v = 0; v < vectors; ++v) {
-            least[v] = spt_min(pull_radius(&scales[v], distances[v]), least[v]);
+            least[v] = spt_min(pull_bound(&scales[v], distances[v]), least[v]);
         }
     }
     for (int v = 0; v < vectors; ++v) {
@@ -182,6 +208,7 @@ SPTI_INLINE void pull_vectors(const spti_stretch *stretch, int vectors, size_t a
         pull_store(way, place, points[v]);
         spt_store(&way->shrink[place], scales[v].shrink);
         spt_store(&way->reach[place], scales[v].reach);
+        spt_store(&way->clear[place], scales[v].clear);
     }
 }
 
@@ -191,8 +218,25 @@ SPTI_INLINE void pull_stretch(const spti_stretch *stretch, size_t n, const spti_
     if (at < n) pull_vectors(stretch, 1, at, way);
 }
 
+/* What the radius of a ball says from one stretch to the next, if it is no radius any more. */
+#define PULL_INSIDE_OUT (-1.0f)
+#define PULL_CLEAR (-2.0f)
+
+SPTI_INLINE pull_ball pull_load_ball(const spti_way *way, size_t place) {
+    const spt_wide radius = spt_load(&way->radius[place]), zero = spt_splat(0.0f);
+    const spt_mask clear = spt_less(radius, spt_splat(PULL_INSIDE_OUT));
+    const pull_ball ball = {spt_abs(radius), spt_mask_and_not(spt_less(radius, zero), clear),
+                            clear};
+    return ball;
+}
+
+SPTI_INLINE spt_wide pull_ball_radius(const pull_ball *ball) {
+    const spt_wide radius = spt_select(ball->inside_out, spt_splat(PULL_INSIDE_OUT), ball->radius);
+    return spt_select(ball->clear, spt_splat(PULL_CLEAR), radius);
+}
+
 /* The same for balls: clearance instead of distance. One that came out inside-out has none, whatever
- * its numbers are afterwards. */
+ * its numbers are afterwards, and one that is clear keeps what it had. */
 SPTI_INLINE void pull_balls(const spti_stretch *stretch, int vectors, size_t at,
                             const spti_way *way) {
     const spt_wide none = spt_splat(-1.0f);
@@ -202,8 +246,7 @@ SPTI_INLINE void pull_balls(const spti_stretch *stretch, int vectors, size_t at,
     for (int v = 0; v < vectors; ++v) {
         const size_t place = at + (size_t)v * SPT_LANES;
         points[v] = pull_load(way, place);
-        balls[v].radius = spt_load(&way->radius[place]);
-        balls[v].inside_out = spt_less(balls[v].radius, spt_splat(0.0f));
+        balls[v] = pull_load_ball(way, place);
         least[v] = stretch->begins ? spt_splat(INFINITY) : spt_load(&way->distance[place]);
     }
     for (uint32_t level = stretch->first + 1; level-- > stretch->last;) {
@@ -214,17 +257,17 @@ SPTI_INLINE void pull_balls(const spti_stretch *stretch, int vectors, size_t at,
         }
         if (!shape_distances(&stretch->kernels[level], vectors, points, distances)) continue;
         for (int v = 0; v < vectors; ++v) {
-            least[v] = spt_min(spt_sub(distances[v], balls[v].radius), least[v]);
+            const spt_wide clearance = spt_min(spt_sub(distances[v], balls[v].radius), least[v]);
+            least[v] = spt_select(balls[v].clear, least[v], clearance);
         }
     }
     for (int v = 0; v < vectors; ++v) {
         const size_t place = at + (size_t)v * SPT_LANES;
-        const spt_mask inside_out = balls[v].inside_out;
-        spt_store(&way->distance[place], spt_select(inside_out, none, least[v]));
+        const spt_mask fails = spt_mask_and_not(balls[v].inside_out, balls[v].clear);
+        spt_store(&way->distance[place], spt_select(fails, none, least[v]));
         if (!stretch->goes_on) continue;
         pull_store(way, place, points[v]);
-        /* The radius says so in the next stretch. */
-        spt_store(&way->radius[place], spt_select(inside_out, none, balls[v].radius));
+        spt_store(&way->radius[place], pull_ball_radius(&balls[v]));
     }
 }
 

@@ -27,11 +27,18 @@ typedef struct spti_stretch {
 typedef struct spti_way {
     float *x, *y, *z;
     float *distance; /* the least so far, of the world */
-    float
-        *shrink;  /* maps: lengths where the points are now are so many times those of the world, */
-    float *reach; /* and no free ball of the world is larger than one over this. Or, of probes, */
-    float *radius; /* what the ball has become there */
+    /* of maps, for the bound of the distance: */
+    float *shrink; /* lengths where the points are now are so many times those of the world, */
+    float *reach;  /* no free ball of the world is larger than one over this, */
+    float *clear;  /* and one of this radius holds nothing of what is still to come */
+    /* or for probes: */
+    float *radius; /* of the ball where the points are now; below 0: decided */
 } spti_way;
+
+/* A callback's points, for a way that does not write them. */
+static inline float *spti_unwritten(const float *points) {
+    return (float *)(uintptr_t)points;
+}
 
 /* Takes n points through a stretch. */
 typedef void spti_stretch_fn(const spti_stretch *stretch, size_t n, const spti_way *way);
@@ -68,8 +75,14 @@ spti_ball spti_ball_around(const spti_ball *a, const spti_ball *b);
 /* The image of a ball; one that holds the pole has no end. */
 spti_ball spti_map_ball(const spti_ball *ball, const spt_mobius *map);
 
+/* Notes the ball, after the map, with it. */
+void spti_map_whole(const spti_ball *ball, spt_built_map *map);
+
 /* As a bound, grown by what rounding may have cut; 0 where it has no end or is empty. */
 int spti_bound_of_ball(const spti_ball *ball, spt_bound *bound);
+
+/* How many kernels are fields. */
+uint32_t spti_count_fields(const spt_built_kernel *kernels, uint32_t levels);
 
 /* Whether all field kernels have gradients. */
 int spti_have_gradients(const spt_built_kernel *kernels, uint32_t levels);

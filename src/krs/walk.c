@@ -46,7 +46,10 @@ static SPTI_NOINLINE void join_field(const spt_built_kernel *kernel, spti_walk_k
     spti_ask_kernel(kernel, n, way, asked);
     for (size_t i = 0; i < n; ++i) {
         float k = asked[i];
-        if (kind == SPTI_WALK_PULL) k = in_world(k, way->shrink[i], way->reach[i]);
+        if (kind == SPTI_WALK_PULL) {
+            k = in_world(k, way->shrink[i], way->reach[i]);
+            if (way->clear[i] > 0.0f && k < way->clear[i]) k = way->clear[i];
+        }
         if (kind == SPTI_WALK_PROBE) {
             if (way->radius[i] < 0.0f) continue;
             k -= way->radius[i];

@@ -19,13 +19,17 @@
  *   dodecahedron     6 products, 6 sums, 5 maxima, 1
  *   dodecahedron_p32 the same heights and greatest 18; 6 ratios and powers of 7; 5 sums; 2; roots
  *                    5, division 1
- *   village          40 houses of 24, their minimum included; the ground 6 */
+ *   village          40 houses of 24, their minimum included; the ground 6
+ *   krs_tree_16      17 capsules of 40, roots 2 and a division each; 16 folds of 14 and a minimum
+ *   krs_tree_28      29 and 28 of them */
 #define BENCH_SCENES(X) \
     X(primitives, 342, 26, 3.2, 7.3, 8.6) \
     X(mandelbulb, 185, 12, 3.6, 8.0, 12.0) \
     X(dodecahedron, 18, 0, 2.0, 3.4, 4.4) \
     X(dodecahedron_p32, 67, 6, 3.6, 8.5, 12.0) \
-    X(village, 966, 0, 2.8, 6.0, 10.0)
+    X(village, 966, 0, 2.8, 6.0, 10.0) \
+    X(krs_tree_16, 920, 51, 2.4, 5.8, 9.5) \
+    X(krs_tree_28, 1580, 87, 2.4, 6.4, 9.2)
 
 /* X(scene, method, whether it needs a convex field), for the scene that the user names. */
 #define BENCH_METHODS(X, scene) \

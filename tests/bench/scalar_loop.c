@@ -265,6 +265,12 @@ SPT_SHAPE void scalar_trace(scalar_distance_fn *distance, scalar_rule rule, cons
 #define LOOPS(scene, ...) BENCH_METHODS(LOOP, scene)
 BENCH_SCENES(LOOPS)
 
+static void prepare_scenes(void) {
+#define SCENE(...)
+#define SCENE_BUILT(scene, ...) scene_##scene##_prepare();
+#include "scenes/scenes_list.h"
+}
+
 scalar_trace_fn *scalar_loop_of(const char *scene, const char *method) {
     static const struct {
         const char *scene, *method;
@@ -273,6 +279,7 @@ scalar_trace_fn *scalar_loop_of(const char *scene, const char *method) {
 #define ENTRY(scene, method, convex) {#scene, #method, trace_##scene##_##method},
 #define ENTRIES(scene, ...) BENCH_METHODS(ENTRY, scene)
         BENCH_SCENES(ENTRIES)};
+    prepare_scenes();
     for (size_t i = 0; i < sizeof loops / sizeof loops[0]; ++i) {
         if (strcmp(loops[i].scene, scene) == 0 && strcmp(loops[i].method, method) == 0) {
             return loops[i].trace;

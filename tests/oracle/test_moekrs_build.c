@@ -248,11 +248,13 @@ static void moekrs_of_no_levels(void) {
     }
 }
 
-/* Every sphere as a field of slope 2 instead: what it is off by is in the margin of both. */
+/* Every sphere as a field of slope 2 in its ball instead: what it is off by is in the margin of
+ * both. Without the balls the model has no end. */
 static void moekrs_of_fields(void) {
     for (int draw = 0; draw < 40; ++draw) {
         static spt_kernel spheres[moekrs_levels + 1];
         static spt_field fields[moekrs_levels + 1];
+        static spt_bound balls[moekrs_levels + 1];
         spt_field one, two;
         static spt_moekrs of_fields;
         spt_moekrs_model description;
@@ -268,7 +270,14 @@ static void moekrs_of_fields(void) {
                 model.kernels[i] = spt_kernel_field(&fields[i]);
         }
         CHECK(spt_moekrs_build(&description, &of_fields) == SPT_OK);
-        CHECK(!of_fields.bounded); /* fields without bound */
+        CHECK(!of_fields.bounded);
+        for (int i = 0; i <= model.levels; ++i) {
+            const float *const center = spheres[i].a;
+            balls[i] = spt_bound_sphere(center[0], center[1], center[2], spheres[i].radius);
+            fields[i].bound = &balls[i];
+        }
+        CHECK(spt_moekrs_build(&description, &of_fields) == SPT_OK);
+        CHECK(of_fields.bounded == built.bounded);
         memcpy(model.kernels, spheres, sizeof spheres);
         for (int i = 0; i < per_model; ++i) {
             moekrs_point(&model, queries[i].point);

@@ -200,7 +200,44 @@ static void moekrs_field_bits(void) {
     }
 }
 
+/* The image of infinity under an inversion in a unit sphere is its center, where no point of kernel
+ * space is near. One ball is seen there as the ball that the inversion makes of it: center
+ * c + (k - c) / (|k - c|^2 - r^2), radius r / (|k - c|^2 - r^2). */
+static void moekrs_field_at_the_pole(void) {
+    const double pole[3] = {0.25, -0.5, 0.125};
+    for (int shift = 0; shift < 8; ++shift) {
+        const float x = -1.5f - 0.25f * (float)shift, radius = 0.375f;
+        const spt_kernel kernels[] = {spt_kernel_sphere(x, 0.25f, -0.5f, radius),
+                                      spt_kernel_empty()};
+        const double away[3] = {(double)x - pole[0], 0.25 - pole[1], -0.5 - pole[2]};
+        const double square = away[0] * away[0] + away[1] * away[1] + away[2] * away[2];
+        const double scale = 1 / (square - (double)radius * (double)radius);
+        const double distance = scale * (sqrt(square) - (double)radius);
+        spt_moekrs_model description = spt_moekrs_model_default();
+        spt_mobius inversion;
+        check_context("shift %d", shift);
+        CHECK(spt_mobius_inversion(pole, 1, &inversion) == SPT_OK);
+        description.levels = 1;
+        description.kernels = kernels;
+        description.maps = &inversion;
+        description.unmirrored = 1;
+        CHECK(spt_moekrs_build(&description, &built) == SPT_OK);
+        const spt_field field = spt_moekrs_field(&built);
+        const spt_probe probe = spt_moekrs_probe(&built);
+        for (int step = 0; step < 4; ++step) {
+            const float beside = step == 0 ? 0.0f : 0x1p-20f * (float)(1 << 5 * step);
+            const float at = (float)pole[0] - beside, reached = 0.98f * (float)distance - beside;
+            const float f = field.point(field.user, at, (float)pole[1], (float)pole[2]);
+            CHECK_SAY((double)f > 0.98 * distance - (double)beside &&
+                          (double)f < 1.00001 * distance + (double)beside,
+                      "%.9g for %.9g", (double)f, distance);
+            CHECK(probe.point(probe.user, at, (float)pole[1], (float)pole[2], reached) >= 0);
+        }
+    }
+}
+
 void suite_moekrs_field(void) {
+    RUN(moekrs_field_at_the_pole);
     RUN(moekrs_field_is_a_bound);
     RUN(moekrs_field_has_slope_1);
     RUN(moekrs_field_tends_to_the_distance);

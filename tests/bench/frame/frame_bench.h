@@ -17,7 +17,9 @@
     X(mandelbulb, 13, 20, 0, 0) \
     X(dodecahedron, FRAME_NO_LOSS, FRAME_NO_LOSS, 0, 0) \
     X(dodecahedron_p32, 13, 19, 0, 0) \
-    X(village, 18, 25, 180, 220)
+    X(village, 18, 25, 180, 220) \
+    X(krs_tree_16, 15, 26, 0, 0) \
+    X(krs_tree_28, 13, 19, 0, 0)
 
 /* Races frames against the scalar loop and writes the rows of frame.csv. Returns whether all
  * results agreed. */
