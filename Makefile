@@ -170,8 +170,8 @@ $B/examples/scenes/%.o: examples/scenes/%.c $B/setup
 	$(Q)$(COMPILE) $(SCENE_MISSING) $(CFLAGS) $(KEEP) -c $< -o $@
 
 # Programs of one idea each; what they share is linked as far as they need it.
-PROGRAMS := one_ray batch_callback one_frame glass_ball methods_compared progressive shadow_pass \
-            occlusion_pass path_tracer whitted figures render
+PROGRAMS := one_ray batch_callback one_frame glass_ball mirrored_tree methods_compared progressive \
+            shadow_pass occlusion_pass path_tracer whitted figures models render
 # Those that only say whether all is well when run without arguments.
 CHECKED := $(filter-out render,$(PROGRAMS))
 SHARED_SOURCES := $(filter-out $(PROGRAMS:%=examples/%.c),$(wildcard examples/*.c))
@@ -203,11 +203,13 @@ $(PROGRAMS:%=$B/%$(EXE)): $B/%$(EXE): $B/examples/%.o $B/examples/shared.a $(SCE
 	$(call SAY,$@)
 	$(Q)$(EXAMPLE_LINK) $(CFLAGS) $(LDFLAGS) $^ $(OIIO_LIBS) -lm -pthread -o $@
 
-demo: $B/render$(EXE)
+demo: $B/render$(EXE) $B/models$(EXE)
+	@mkdir -p $B/gallery
+	$(RUN) $B/models$(EXE) $B/gallery
 	$(RUN) $B/render$(EXE) --gallery $B/gallery
 
 gallery: $(patsubst %,$B/%$(EXE),render progressive shadow_pass occlusion_pass path_tracer whitted \
-                  figures)
+                  figures models)
 	$(RUN) $B/render$(EXE) --gallery $B/gallery --large
 	$(RUN) $B/progressive$(EXE) primitives $B/gallery/progressive_primitives.png
 	$(RUN) $B/progressive$(EXE) mandelbulb $B/gallery/progressive_mandelbulb.png
@@ -216,6 +218,7 @@ gallery: $(patsubst %,$B/%$(EXE),render progressive shadow_pass occlusion_pass p
 	$(RUN) $B/figures$(EXE) $B/gallery
 	$(RUN) $B/path_tracer$(EXE) $B/gallery/path_tracer.png
 	$(RUN) $B/whitted$(EXE) $B/gallery
+	$(RUN) $B/models$(EXE) $B/gallery --large
 
 # ---- Tests --------------------------------------------------------------------------------------
 
@@ -272,6 +275,7 @@ FRAME_SOURCES := $(wildcard tests/bench/frame/*.c)
 KEINERT_SOURCES := $(wildcard tests/bench/keinert/*.c) tests/bench/frame/frame_picture.c \
                    tests/oracle/listings.c
 PEERS_SOURCES := $(wildcard tests/bench/peers/*.c) tests/bench/frame/frame_picture.c
+KRS_SOURCES := $(wildcard tests/bench/krs/*.c) tests/bench/frame/frame_picture.c
 # The scalar loop that the driver is measured against gets all that the machine has, and so do the
 # callbacks that Embree calls.
 NATIVE ?= -march=native
@@ -315,13 +319,17 @@ $B/peers_bench$(EXE): $(PEERS_SOURCES:%.c=$B/%.o) $B/tests/bench/bench.o $(SCENE
 	$(call SAY,$@)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lembree3 -lm -o $@
 
+$B/krs_bench$(EXE): $(KRS_SOURCES:%.c=$B/%.o) $B/tests/bench/bench.o $(SCENES) $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
+
 .PHONY: need_embree
 need_embree:
 	@[ "$(EMBREE)" = 1 ] || { echo 'skipped: peers_bench, no Embree 3 (libembree-dev)'; \
 	  [ "$$SPT_REQUIRE" != 1 ]; }
 
 # QUICK=1: smaller pictures and fewer rounds.
-BENCHES := driver_bench frame_bench keinert_bench $(if $(filter 1,$(EMBREE)),peers_bench)
+BENCHES := driver_bench frame_bench keinert_bench krs_bench $(if $(filter 1,$(EMBREE)),peers_bench)
 bench: need_embree $(BENCHES:%=$B/%$(EXE))
 	@mkdir -p $B/bench
 	@for program in $(BENCHES); do \
