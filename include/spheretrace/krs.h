@@ -52,7 +52,7 @@ typedef enum spt_kernel_kind {
 #define SPT_KERNEL_KINDS 6
 
 /* A kernel as the caller describes it. Make one with the functions below, which zero what a kind
- * does not use. Lengths in world units, 0 or from 1e-15 to 1e18; coordinates below 1e18. Refused
+ * does not use. Lengths in world units, 0 or from 1e-15 to 1e18; coordinates up to 1e18. Refused
  * with SPT_BAD_ARGUMENT where it is used: a non-finite number, radius < 0 (but of a half space),
  * width <= 0 or more than half the distance of the tips, tips that coincide, a vector of no length
  * (or along the tips), a field that spt_trace() would refuse. */
@@ -180,7 +180,7 @@ typedef struct spt_krs {
 
 /* Builds a model. Nothing of the description need live on, but for the users of fields. Returns
  * SPT_BAD_ARGUMENT, with nothing written, for: a NULL pointer; levels > SPT_KRS_LEVELS; a bad
- * kernel; a mirror whose normal has no length, or whose numbers are not finite; a bad bound; smooth
+ * kernel; a mirror whose normal has no length, or whose offset exceeds 1e18; a bad bound; smooth
  * or max_lanes out of range; smooth > 0 with a field kernel that has no gradient callback.
  * Straddling is no error: see spt_krs.straddles.
  * Cost: about 0.2 us a level. */
@@ -190,7 +190,8 @@ SPT_API spt_status spt_krs_build(const spt_krs_model *model, spt_krs *krs);
  * kernels have one, a gradient callback, which sees smooth. krs is not copied: it must stay where
  * it is as long as the field is used. The callbacks keep equal bits at every width.
  *     d = K_n(p);  for i = n-1 .. 0:  fold p at mirror i;  d = min(d, K_i(p))      (Algorithm 1)
- * without branches. |d - exact| <= 2^-22 (n + 4) max(|p| + largest |offset|, how far kernels reach,
+ * without branches, for points with coordinates of up to 1e18; any other stands for the nearest one
+ * of those. |d - exact| <= 2^-22 (n + 4) max(|p| + largest |offset|, how far kernels reach,
  * 1). Cost: about 1 ns a level of capsules and evaluation with 16 lanes. */
 SPT_API spt_field spt_krs_field(const spt_krs *krs);
 

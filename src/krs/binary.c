@@ -80,7 +80,8 @@ static binary_end feel(spti_chunk *chunk, const spti_march *march, size_t slot) 
     if (radius > most) radius = most;
     /* The tolerance may have grown by more than the bonus. */
     if (is_free && radius < 2.0f * least) radius = 2.0f * least;
-    /* Or none that t resolves. */
+    /* Nor is a free one too small for t, which may then go on; any other is the last. */
+    if (is_free && !(t + 2.0f * radius > t)) radius = t * 0x1p-22f;
     if (!(radius > least) || !(t + 2.0f * radius > t)) return end_at(chunk, slot, clearance);
     chunk->array[RADIUS][slot] = radius;
     spti_slot_point(chunk, slot, slot, t + radius);

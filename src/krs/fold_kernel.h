@@ -33,9 +33,7 @@ SPTI_INLINE void fold_vectors(const spti_stretch *stretch, int vectors, size_t a
     spt_wide least[2], distances[2];
     for (int v = 0; v < vectors; ++v) {
         const size_t place = at + (size_t)v * SPT_LANES;
-        points[v].x = spt_load(&way->x[place]);
-        points[v].y = spt_load(&way->y[place]);
-        points[v].z = spt_load(&way->z[place]);
+        points[v] = shape_load(way, place);
         least[v] = stretch->begins ? spt_splat(INFINITY) : spt_load(&way->distance[place]);
     }
     for (uint32_t level = stretch->first + 1; level-- > stretch->last;) {

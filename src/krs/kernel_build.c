@@ -13,17 +13,15 @@
 #define SPT_LANES 1
 #include "shape_kernel.h"
 
-static const float longest = 1e18f;
-
 static int numbers_are_good(const spt_kernel *kernel) {
     int good = 1;
     for (int axis = 0; axis < 3; ++axis) {
-        good &= spti_within(kernel->a[axis], -longest, longest);
-        good &= spti_within(kernel->b[axis], -longest, longest);
-        good &= spti_within(kernel->control[axis], -longest, longest);
+        good &= spti_within(kernel->a[axis], -SPTI_FARTHEST, SPTI_FARTHEST);
+        good &= spti_within(kernel->b[axis], -SPTI_FARTHEST, SPTI_FARTHEST);
+        good &= spti_within(kernel->control[axis], -SPTI_FARTHEST, SPTI_FARTHEST);
     }
-    return good && spti_within(kernel->radius, -longest, longest) &&
-           spti_within(kernel->width, -longest, longest);
+    return good && spti_within(kernel->radius, -SPTI_FARTHEST, SPTI_FARTHEST) &&
+           spti_within(kernel->width, -SPTI_FARTHEST, SPTI_FARTHEST);
 }
 
 static double length(const double v[3]) {
@@ -41,7 +39,7 @@ static int build_half_space(const spt_kernel *kernel, spt_built_kernel *built, s
     put(built, SHAPE_CENTER, normal, 1.0 / size);
     built->number[SHAPE_RADIUS] = (float)((double)kernel->radius / size);
     ball->radius = (double)INFINITY;
-    return spti_finite(built->number[SHAPE_RADIUS]);
+    return fabsf(built->number[SHAPE_RADIUS]) <= SPTI_FARTHEST;
 }
 
 static void put_point(spt_built_kernel *built, int place, spt_point p) {

@@ -16,13 +16,13 @@ static int build_mirror(spt_mirror *mirror) {
         square += (double)mirror->normal[axis] * (double)mirror->normal[axis];
     }
     if (!spti_finite(mirror->offset) || !(square > 0)) return 0;
-    if (fabs(square - 1) <= 1e-5) return 1;
+    if (fabs(square - 1) <= 1e-5) return fabsf(mirror->offset) <= SPTI_FARTHEST;
     const double factor = 1 / sqrt(square), offset = (double)mirror->offset * factor;
     for (int axis = 0; axis < 3; ++axis) {
         mirror->normal[axis] = (float)((double)mirror->normal[axis] * factor);
     }
     mirror->offset = (float)offset;
-    return spti_finite(mirror->offset);
+    return fabsf(mirror->offset) <= SPTI_FARTHEST;
 }
 
 /* What a ball becomes that is cut at a mirror and joined by the image of what is left. The center

@@ -35,7 +35,8 @@ static shape_points step_down(const spti_stretch *model, uint32_t level, shape_p
     }
     if (model->maps != NULL && level > 0) {
         const spt_built_map *const map = &model->maps[level - 1];
-        trail->u[level - 1] = pull_denominator(map, x, &trail->inverse[level - 1]);
+        float square;
+        trail->u[level - 1] = pull_denominator(map, x, &square, &trail->inverse[level - 1]);
         x = pull_level(map, x, scale);
     }
     return x;
@@ -129,7 +130,7 @@ void spti_find_place(const spti_stretch *model, const float point[3], float smoo
                      spti_place *place) {
     const locate_widths widths = {(double)smooth, (double)footprint};
     locate_trail trail;
-    shape_points x = {point[0], point[1], point[2]};
+    shape_points x = {shape_in_range(point[0]), shape_in_range(point[1]), shape_in_range(point[2])};
     pull_scale scale = {1.0f, 0.0f, 0.0f};
     float least = INFINITY;
     uint64_t used = 0;
@@ -148,7 +149,7 @@ void spti_find_place(const spti_stretch *model, const float point[3], float smoo
         place->point[0] = x.x;
         place->point[1] = x.y;
         place->point[2] = x.z;
-        place->scale = 1.0f / scale.shrink;
+        place->scale = 1.0f / scale.shrink; /* which is no less than FLT_MIN */
     }
     if (place->kernel < 0) return;
     find_normal(model, &trail, &widths, place);

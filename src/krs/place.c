@@ -83,7 +83,7 @@ static void field_gradient(const spt_built_kernel *kernel, const float point[3],
     if (kernel->gradient == NULL) return;
     for (int axis = 0; axis < 3; ++axis) {
         for (int i = 0; i < SPTI_GROUP; ++i) {
-            at[axis][i] = point[axis];
+            at[axis][i] = spti_in_range(point[axis]);
             slope[axis][i] = 0.0f;
         }
     }

@@ -34,10 +34,16 @@ SPTI_INLINE spt_wide pull_dot(shape_points x, const float q[4]) {
                    spt_mul(x.z, spt_splat(q[3])));
 }
 
+/* What |u|^2 counts as at most, so that the products of a preimage do not overflow: far from the
+ * pole; or, of a map without one, what its entries allow. */
+SPTI_INLINE spt_wide pull_most(const spt_built_map *map) {
+    return spt_splat(map->c_length > 0.0f ? 0x1p80f : 0x1.8p126f);
+}
+
 /* u = a - x c, nowhere shorter than rounding makes it: at the pole of the map itself, whose preimage
- * is infinity, that of a point beside it. */
+ * is infinity, that of a point beside it. square: |u|^2, inverse: one over it. */
 SPTI_INLINE pull_quaternion pull_denominator(const spt_built_map *map, shape_points x,
-                                             spt_wide *inverse) {
+                                             spt_wide *square, spt_wide *inverse) {
     const shape_points cross = pull_cross(x, map->c);
     const spt_wide real = spt_splat(map->c[0]), zero = spt_splat(0.0f);
     const spt_wide least = spt_splat(map->least);
@@ -55,13 +61,15 @@ SPTI_INLINE pull_quaternion pull_denominator(const spt_built_map *map, shape_poi
     u.pure.x = spt_select(small, zero, u.pure.x);
     u.pure.y = spt_select(small, zero, u.pure.y);
     u.pure.z = spt_select(small, zero, u.pure.z);
-    *inverse = spt_div(spt_splat(1.0f), spt_select(small, floor, whole));
+    /* In this order NaN, of infinities that cancel, counts as far away. */
+    *square = spt_min(spt_select(small, floor, whole), pull_most(map));
+    *inverse = spt_div(spt_splat(1.0f), *square);
     return u;
 }
 
-/* The preimage of x; inverse is 1 / |u|^2. */
+/* The preimage of x; from far away that of infinity. */
 SPTI_INLINE shape_points pull_point(const spt_built_map *map, shape_points x, pull_quaternion u,
-                                    spt_wide inverse) {
+                                    spt_wide square, spt_wide inverse) {
     const shape_points cross = pull_cross(x, map->d); /* -d x, as d* has it */
     const spt_wide real = spt_splat(map->d[0]);
     const spt_wide w = spt_add(pull_dot(x, map->d), spt_splat(map->b[0]));
@@ -71,10 +79,14 @@ SPTI_INLINE shape_points pull_point(const spt_built_map *map, shape_points x, pu
     const spt_wide cross_x = spt_sub(spt_mul(v.y, u.pure.z), spt_mul(v.z, u.pure.y));
     const spt_wide cross_y = spt_sub(spt_mul(v.z, u.pure.x), spt_mul(v.x, u.pure.z));
     const spt_wide cross_z = spt_sub(spt_mul(v.x, u.pure.y), spt_mul(v.y, u.pure.x));
-    const shape_points image = {
+    shape_points image = {
         spt_mul(spt_add(spt_add(spt_mul(w, u.pure.x), spt_mul(v.x, u.real)), cross_x), inverse),
         spt_mul(spt_add(spt_add(spt_mul(w, u.pure.y), spt_mul(v.y, u.real)), cross_y), inverse),
         spt_mul(spt_add(spt_add(spt_mul(w, u.pure.z), spt_mul(v.z, u.real)), cross_z), inverse)};
+    const spt_mask near = spt_less(square, pull_most(map));
+    image.x = spt_select(near, image.x, spt_splat(map->center[0]));
+    image.y = spt_select(near, image.y, spt_splat(map->center[1]));
+    image.z = spt_select(near, image.z, spt_splat(map->center[2]));
     return image;
 }
 
@@ -101,17 +113,19 @@ SPTI_INLINE spt_wide pull_from_whole(const spt_built_map *map, shape_points x) {
 }
 
 /* Near the map's pole a preimage is far from everything, and yet the ball around it that is free
- * does not hold infinity, which is what is near: there the ball around all tells more. */
+ * does not hold infinity, which is what is near: there the ball around all that was mapped tells
+ * more. So it does where lengths have shrunk so far that no float32 distance is left of them. */
 SPTI_INLINE shape_points pull_level(const spt_built_map *map, shape_points x, pull_scale *scale) {
-    spt_wide inverse;
-    const pull_quaternion u = pull_denominator(map, x, &inverse);
+    spt_wide square, inverse;
+    const pull_quaternion u = pull_denominator(map, x, &square, &inverse);
     const spt_wide bend = spt_mul(spt_splat(map->c_length), spt_sqrt(inverse));
-    if (map->c_length > 0.0f) { /* else there is no pole */
-        scale->clear = spt_max(pull_radius(scale, pull_from_whole(map, x)), scale->clear);
-    }
+    scale->clear = spt_max(pull_radius(scale, pull_from_whole(map, x)), scale->clear);
     scale->reach = spt_add(scale->reach, spt_mul(scale->shrink, bend));
     scale->shrink = spt_mul(scale->shrink, inverse);
-    return pull_point(map, x, u, inverse);
+    /* Neither infinity nor 0, which no distance may be divided by; 2^64 / 2^100 is nothing. */
+    scale->reach = spt_min(scale->reach, spt_splat(0x1p100f));
+    scale->shrink = spt_max(spt_min(scale->shrink, spt_splat(0x1p100f)), spt_splat(FLT_MIN));
+    return pull_point(map, x, u, square, inverse);
 }
 
 /* A kernel's part of the bound. */
@@ -132,19 +146,24 @@ SPTI_INLINE shape_points pull_ball_level(const spt_built_map *map, shape_points 
                                          pull_ball *ball) {
     const spt_wide one = spt_splat(1.0f);
     const spt_wide c_square = spt_splat(map->c_length * map->c_length);
-    spt_wide inverse;
-    const pull_quaternion u = pull_denominator(map, x, &inverse);
-    const shape_points q = pull_point(map, x, u, inverse);
+    spt_wide square, inverse;
+    const pull_quaternion u = pull_denominator(map, x, &square, &inverse);
+    const shape_points q = pull_point(map, x, u, square, inverse);
     const spt_mask away = spt_less(ball->radius, pull_from_whole(map, x));
     ball->clear = spt_mask_or(ball->clear, spt_mask_and_not(away, ball->inside_out));
-    /* m < 1: the ball does not reach the pole */
-    const spt_wide square = spt_mul(ball->radius, ball->radius);
-    const spt_wide m = spt_mul(spt_mul(square, c_square), inverse);
-    const spt_wide growth = spt_div(one, spt_sub(one, m));
-    ball->inside_out = spt_mask_or(ball->inside_out, spti_mask_not(spt_less(m, one)));
+    /* m < 1: the ball does not reach the pole. One that is larger than anything counts as one that
+     * does; either number is held to where no product is infinity by 0. */
+    const spt_wide largest = spt_splat(0x1p60f), held = spt_min(ball->radius, largest);
+    const spt_wide reached = spt_mul(spt_mul(spt_mul(held, held), c_square), inverse);
+    const spt_wide m = spt_min(reached, largest);
+    const spt_mask beyond = spti_mask_not(spt_less(ball->radius, largest));
+    ball->inside_out = spt_mask_or(ball->inside_out, beyond);
+    const spt_mask short_of_it = spt_less(m, one);
+    ball->inside_out = spt_mask_or(ball->inside_out, spti_mask_not(short_of_it));
+    const spt_wide growth = spt_div(one, spt_select(short_of_it, spt_sub(one, m), one));
     /* What means nothing any more must not shrink to where processors are slow. */
     const spt_wide share = spt_select(ball->inside_out, spt_splat(0.0f), spt_mul(m, growth));
-    const spt_wide radius = spt_mul(spt_mul(ball->radius, inverse), growth);
+    const spt_wide radius = spt_mul(spt_mul(held, inverse), growth);
     const shape_points shift = {spt_mul(spt_sub(q.x, spt_splat(map->center[0])), share),
                                 spt_mul(spt_sub(q.y, spt_splat(map->center[1])), share),
                                 spt_mul(spt_sub(q.z, spt_splat(map->center[2])), share)};
@@ -160,11 +179,6 @@ SPTI_INLINE shape_points pull_ball_level(const spt_built_map *map, shape_points 
 /* The mirror x = 0 of a level, of points that are to be on x <= 0. */
 SPTI_INLINE shape_points pull_mirror(const spti_stretch *stretch, uint32_t level, shape_points x) {
     if (!(stretch->unmirrored >> level & 1)) x.x = spt_sub(spt_splat(0.0f), spt_abs(x.x));
-    return x;
-}
-
-SPTI_INLINE shape_points pull_load(const spti_way *way, size_t at) {
-    const shape_points x = {spt_load(&way->x[at]), spt_load(&way->y[at]), spt_load(&way->z[at])};
     return x;
 }
 
@@ -184,7 +198,7 @@ SPTI_INLINE void pull_vectors(const spti_stretch *stretch, int vectors, size_t a
     spt_wide least[2], distances[2];
     for (int v = 0; v < vectors; ++v) {
         const size_t place = at + (size_t)v * SPT_LANES;
-        points[v] = pull_load(way, place);
+        points[v] = shape_load(way, place);
         scales[v].shrink = stretch->begins ? spt_splat(1.0f) : spt_load(&way->shrink[place]);
         scales[v].reach = stretch->begins ? spt_splat(0.0f) : spt_load(&way->reach[place]);
         scales[v].clear = stretch->begins ? spt_splat(0.0f) : spt_load(&way->clear[place]);
@@ -245,7 +259,7 @@ SPTI_INLINE void pull_balls(const spti_stretch *stretch, int vectors, size_t at,
     spt_wide least[2], distances[2];
     for (int v = 0; v < vectors; ++v) {
         const size_t place = at + (size_t)v * SPT_LANES;
-        points[v] = pull_load(way, place);
+        points[v] = shape_load(way, place);
         balls[v] = pull_load_ball(way, place);
         least[v] = stretch->begins ? spt_splat(INFINITY) : spt_load(&way->distance[place]);
     }

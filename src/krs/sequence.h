@@ -7,8 +7,13 @@
 
 #include <spheretrace/mobius.h>
 
+#include <float.h>
+
 #include "../backend/isa.h"
 #include "../base/compiler.h"
+
+/* Coordinates of what models are built from, and of the points they are asked for. */
+#define SPTI_FARTHEST 1e18f
 
 /* Levels of a model that follow each other without a caller's field between them: those numbered
  * first down to last. Level i is the fold or map i, if i < levels, and kernel i. */
@@ -38,6 +43,12 @@ typedef struct spti_way {
 /* A callback's points, for a way that does not write them. */
 static inline float *spti_unwritten(const float *points) {
     return (float *)(uintptr_t)points;
+}
+
+/* A coordinate for a caller's callback: finite, wherever maps and folds have taken a point. */
+static inline float spti_in_range(float coordinate) {
+    if (!(coordinate >= -FLT_MAX)) return coordinate < 0.0f ? -FLT_MAX : 0.0f;
+    return coordinate <= FLT_MAX ? coordinate : FLT_MAX;
 }
 
 /* Takes n points through a stretch. */

@@ -28,6 +28,19 @@ typedef struct shape_points {
     spt_wide x, y, z;
 } shape_points;
 
+/* Points of rays without end stand for the nearest one of what kernels may reach, so that no square
+ * overflows. */
+SPTI_INLINE spt_wide shape_in_range(spt_wide coordinate) {
+    return spt_max(spt_min(coordinate, spt_splat(SPTI_FARTHEST)), spt_splat(-SPTI_FARTHEST));
+}
+
+SPTI_INLINE shape_points shape_load(const spti_way *way, size_t at) {
+    const shape_points points = {shape_in_range(spt_load(&way->x[at])),
+                                 shape_in_range(spt_load(&way->y[at])),
+                                 shape_in_range(spt_load(&way->z[at]))};
+    return points;
+}
+
 SPTI_INLINE spt_wide shape_number(const spt_built_kernel *kernel, int place) {
     return spt_splat(kernel->number[place]);
 }

@@ -12,12 +12,6 @@ typedef struct walk_points {
     SPTI_ALIGNED(64) float x[SPT_BATCH], y[SPT_BATCH], z[SPT_BATCH];
 } walk_points;
 
-static float in_range(float coordinate) {
-    /* Maps may take a point to where no callback can be asked. NaN does not come out of them. */
-    if (coordinate > FLT_MAX) return FLT_MAX;
-    return coordinate < -FLT_MAX ? -FLT_MAX : coordinate;
-}
-
 void spti_ask_kernel(const spt_built_kernel *kernel, size_t n, const spti_way *way,
                      float *distance) {
     walk_points points;
@@ -26,9 +20,9 @@ void spti_ask_kernel(const spt_built_kernel *kernel, size_t n, const spti_way *w
     field.point = kernel->point;
     field.user = kernel->user;
     for (size_t i = 0; i < n; ++i) {
-        points.x[i] = in_range(way->x[i]);
-        points.y[i] = in_range(way->y[i]);
-        points.z[i] = in_range(way->z[i]);
+        points.x[i] = spti_in_range(way->x[i]);
+        points.y[i] = spti_in_range(way->y[i]);
+        points.z[i] = spti_in_range(way->z[i]);
     }
     spti_ask(&field, n, points.x, points.y, points.z, distance);
     for (size_t i = 0; i < n; ++i) distance[i] /= kernel->lipschitz;

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Runs the fuzzing harness of krs.h and mobius.h on pseudo-random bytes, so that every build tries
+ * it. */
+#include "fuzz_krs.h"
+
+#include "check.h"
+
+static void failed(const char *condition, const char *file, int line) {
+    check_that(0, condition, file, line);
+}
+
+static void fuzz_krs_on_random_bytes(void) {
+    enum { inputs = 4000, longest = 1200 };
+    uint8_t data[longest];
+    fuzz_failed = failed;
+    for (int i = 0; i < inputs; ++i) {
+        const size_t size = check_random() % (i % 4 != 0 ? 400 : longest);
+        for (size_t at = 0; at < size; ++at) data[at] = (uint8_t)(check_random() >> 8);
+        check_context("input %d of %u bytes", i, (unsigned)size);
+        fuzz_krs_input(data, size);
+    }
+    fuzz_failed = NULL;
+}
+
+void suite_fuzz_krs(void) {
+    RUN(fuzz_krs_on_random_bytes);
+}
