@@ -40,7 +40,8 @@ TARGET := $(shell $(CC) -dumpmachine)
 builds = $(shell printf '\043include <immintrin.h>\nint spt_probe;\n' | \
            $(CC) $(1) -fsyntax-only -x c - >/dev/null 2>&1 && echo yes)
 ISAS := scalar
-flags_scalar := -DSPT_LANES=1
+# One lane at a time: half-filled vectors divide what is in their other lanes, too.
+flags_scalar := -DSPT_LANES=1 -fno-tree-slp-vectorize
 ifneq ($(filter x86_64% amd64%,$(TARGET)),)
 ISAS += $(if $(call builds,-msse2),sse2)
 ISAS += $(if $(call builds,-mssse3),ssse3)
@@ -80,7 +81,7 @@ SHARED := $B/libspheretrace.so.$(VERSION)
 all: $(STATIC) $(SHARED)
 
 # A change of compiler or flags rebuilds.
-SETUP := $(CC) $(LAW) $(CFLAGS) $(KEEP) $(LDFLAGS) $(ISAS)
+SETUP := $(CC) $(LAW) $(CFLAGS) $(KEEP) $(LDFLAGS) $(foreach isa,$(ISAS),$(isa) $(flags_$(isa)))
 $B/setup: $(if $(filter-out $(SETUP),$(shell cat $B/setup 2>/dev/null))$(filter-out \
             $(shell cat $B/setup 2>/dev/null),$(SETUP)),FORCE)
 	@mkdir -p $(@D) && printf '%s\n' '$(SETUP)' > $@

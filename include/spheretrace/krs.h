@@ -19,7 +19,9 @@
  *
  * LEVEL OF DETAIL comes from settings.pixel_radius: rays stop at half a pixel, which thickens what
  * is thinner and merges what is closer, continuously with the distance (section 4). What is shaded
- * there should vary as little: spt_krs_locate() smooths normals over the width of a pixel. */
+ * there should vary as little: spt_krs_locate() smooths normals over the width of a pixel. Moving
+ * pictures want spt_relaxed() or spt_basic(): what longer steps leave below half a pixel varies more
+ * from frame to frame where rays graze (by 38 % in a wood), and spt_refine(). */
 #ifndef SPHERETRACE_KRS_H
 #define SPHERETRACE_KRS_H
 
@@ -41,7 +43,7 @@ extern "C" {
 typedef enum spt_kernel_kind {
     SPT_KERNEL_EMPTY = 0,      /* nothing: costs nothing */
     SPT_KERNEL_SPHERE = 1,     /* within radius of a */
-    SPT_KERNEL_HALF_SPACE = 2, /* a . p <= radius, a of any length but zero */
+    SPT_KERNEL_HALF_SPACE = 2, /* a . p <= radius, a of any length from FLT_MIN on */
     SPT_KERNEL_CAPSULE = 3,    /* within radius of the arc from a through control to b, straight
                                 * where control is on their line: a toroidal capsule (9.2) */
     SPT_KERNEL_LEAF = 4,       /* within radius of a flat leaf with tips a and b, bounded by two
@@ -114,7 +116,7 @@ static inline spt_kernel spt_kernel_field(const spt_field *field) {
 }
 
 /* The plane normal . p = offset that L_i is mirrored at. normal of any finite length but zero: one
- * of unit length (|normal|^2 within 1e-5 of 1) is taken as it is, any other is brought to it
+ * of unit length (|normal|^2 within 2^-22 of 1) is taken as it is, any other is brought to it
  * together with the offset, since a fold with a wrong length overestimates. */
 typedef struct spt_mirror {
     float normal[3], offset;
@@ -258,11 +260,13 @@ SPT_API spt_status spt_krs_locate(const spt_krs *krs, int32_t component,
                                   const spt_hits *hits, const spt_krs_places *places);
 
 /* A number that differs from instance to instance, to vary colours by: a hash of what
- * spt_krs_locate() says. Mirrors below `from` are left out: pass the number of the kernel whose
- * whole branch is to share it. */
+ * spt_krs_locate() says. All kernels up to number `from` that stand on one instance of that kernel
+ * share it; 0: each has its own. */
 static inline uint32_t spt_krs_identity(int32_t kernel, uint64_t mirrors, uint32_t from) {
-    uint64_t hash = from < 64 ? mirrors >> from : 0;
-    hash = (hash ^ (uint64_t)(uint32_t)kernel << 56) * UINT64_C(0x9e3779b97f4a7c15);
+    const uint32_t own = kernel > 0 ? (uint32_t)kernel : 0;
+    uint64_t hash = from < 64 ? mirrors >> from << from : 0;
+    hash = (hash + (own > from ? own : from) * UINT64_C(0x2545f4914f6cdd1d)) *
+           UINT64_C(0x9e3779b97f4a7c15);
     hash = (hash ^ hash >> 32) * UINT64_C(0xd6e8feb86659fd93);
     return (uint32_t)(hash >> 32);
 }

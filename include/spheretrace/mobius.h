@@ -188,7 +188,10 @@ typedef struct spt_built_map {
     float pole[3];                /* L(infinity); +infinity where c = 0 */
     float center[3];              /* L^-1(infinity); 0 where c = 0 */
     float least;                  /* of |a - p c|: nearer to the pole that is rounding */
-    float whole[4]; /* a ball in which all is that was mapped: center, radius; or FLT_MAX */
+    float whole[4];  /* a ball in which all is that was mapped: center, radius; or FLT_MAX */
+    int32_t inverts; /* whether the preimage of p is better computed as */
+    float matrix[9]; /* center + matrix (p - pole) / |p - pole|^2, row by row */
+    float c_inverse; /* |c|^-2 */
 } spt_built_map;
 
 /* A field in a space that a map takes to the world: the caller's memory, about 0.5 KiB. max_lanes,
@@ -261,7 +264,8 @@ typedef struct spt_binary {
     float probe_ratio; /* the ray ends at probes of this times the tolerance, or of what t
                          * resolves, in (0, 1]. Default 0.1 */
     float first;       /* radius of the first probe, world length, >= 0. Default 0: half the bound's
-                         * largest half side, or, without a bound, an eighth of the ray */
+                        * largest half side; without a bound an eighth of the ray, and no more than
+                        * its origin's largest coordinate, or 1 */
 } spt_binary;
 
 static inline spt_binary spt_binary_default(void) {
@@ -334,7 +338,7 @@ typedef struct spt_moekrs {
 /* Builds a model, as spt_krs_build() does. Refused are maps that are not in the group (as
  * spt_mobius_matrix() tests it, and with lambda 1 or -1 to 1e-5) or whose numbers float32 cannot
  * hold: entries beyond 2^63, and, since |lambda| counts beside |a| |d| + |b| |c|, inversions in
- * spheres that are more than 700 radii away from the origin. */
+ * spheres that are more than 700 radii away from the origin, or chains that amount to such. */
 SPT_API spt_status spt_moekrs_build(const spt_moekrs_model *model, spt_moekrs *moekrs);
 
 /* The model as a field: a lower bound of the distance, lipschitz 1, in one pass without branches,

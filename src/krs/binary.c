@@ -30,9 +30,12 @@ static float tolerance_at(const spti_chunk *chunk, const spti_march *march, size
                          chunk->array[SPTI_PATH][slot], floor, t);
 }
 
-/* The radius to begin with. */
+/* The radius to begin with. Without a bound, so far at most as the ray's origin is from that of
+ * coordinates, or 1: what is met on the way should not be far out of scale with that, where fields
+ * may know nothing any more. */
 static float first_radius(const spti_chunk *chunk, const spti_march *march, size_t slot) {
     const float whole = chunk->array[SPTI_T_MAX][slot] - chunk->array[SPTI_T][slot];
+    const float unit = fabsf(chunk->array[SPTI_SCALE][slot]);
     float extent = spti_own_numbers_of(march).number[FIRST];
     if (!(extent > 0.0f) && march->bound != NULL) {
         float low[3], high[3];
@@ -42,8 +45,10 @@ static float first_radius(const spti_chunk *chunk, const spti_march *march, size
             if (side > extent && side <= FLT_MAX) extent = side;
         }
     }
-    if (!(extent > 0.0f)) return 0.125f * whole;
-    return extent * fabsf(chunk->array[SPTI_SCALE][slot]);
+    if (extent > 0.0f) return extent * unit;
+    const float reach = chunk->array[SPTI_FLOOR_AT_0][slot] / SPTI_FLOOR;
+    const float most = reach > unit ? reach : unit;
+    return 0.125f * whole < most ? 0.125f * whole : most;
 }
 
 /* What comes of a ray's probe. */
@@ -185,13 +190,15 @@ static float field_clearance_at(void *user, float x, float y, float z, float rad
 
 spt_probe spt_probe_of_field(const spt_field *field) {
     spt_probe probe = spt_probe_default();
-    if (field == NULL) return probe;
-    if (field->batch != NULL) {
+    spt_field copy;
+    spt_bound bound;
+    if (!spti_field_copy(&copy, &bound, field)) return probe;
+    if (copy.batch != NULL) {
         probe.batch = field_clearance;
-    } else if (field->point != NULL) {
+    } else {
         probe.point = field_clearance_at;
     }
     probe.user = (void *)(uintptr_t)field; /* only read */
-    probe.bound = field->bound;
+    probe.bound = copy.bound;
     return probe;
 }

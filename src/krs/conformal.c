@@ -50,6 +50,7 @@ static void conformal_distance(void *user, size_t n, const float *x, const float
     const spti_way way = way_of(&points, distance);
     take_points(&points, n, x, y, z);
     spti_walk(&model, SPTI_WALK_PULL, conformal->max_lanes, n, &way);
+    spti_settle_far(n, x, y, z, distance);
 }
 
 static void conformal_gradient(void *user, size_t n, const float *x, const float *y, const float *z,
@@ -126,14 +127,21 @@ static void ask_exits(void *user, size_t n, const float *x, const float *y, cons
     spti_krs_kernels_of[isa]->pull(&stretch, n, &way);
     spti_ask_kernel(&conformal->kernels[0], n, &way, rho);
     for (size_t slot = 0; slot < n; ++slot) {
-        const float k = rho[slot] > 0x1p64f ? 0x1p64f : rho[slot];
-        distance[slot] = k / (points.shrink[slot] + points.reach[slot] * fabsf(k));
+        const float shrink = points.shrink[slot], reach = points.reach[slot];
+        distance[slot] = spti_free_radius(rho[slot], shrink, reach);
         if (points.clear[slot] > 0.0f && distance[slot] < points.clear[slot]) {
             distance[slot] = points.clear[slot];
         }
+        /* The exit of a ball that nearly reaches infinity makes much of little: the kernel's
+         * distance is held to what rounding of the point where it was asked leaves certain. */
+        const float magnitude =
+            fabsf(points.x[slot]) + fabsf(points.y[slot]) + fabsf(points.z[slot]);
+        const float noise = 0x1p-20f * (magnitude + fabsf(rho[slot]));
+        const float certain = rho[slot] < 0x1p64f ? rho[slot] - noise : 0x1p64f;
         chunk->array[SPTI_MEMORY][slot] =
-            exit_of(chunk, slot, &conformal->map, k, points.shrink[slot], points.reach[slot]);
+            certain > 0.0f ? exit_of(chunk, slot, &conformal->map, certain, shrink, reach) : 0.0f;
     }
+    spti_settle_far(n, x, y, z, distance);
 }
 
 /* One step of a ray, by the exit of the ball that its sample told. */

@@ -194,6 +194,28 @@ spti_ball spti_ball_around(const spti_ball *a, const spti_ball *b) {
     return around;
 }
 
+/* The center moves onto the plane: what is left is then nearer than radius + distance, since
+ * |x - m|^2 = |x - c|^2 + 2 distance (how far x is before c) + distance^2. */
+spti_ball spti_mirror_ball(const spti_ball *ball, const spt_mirror *mirror, int *straddles) {
+    spti_ball both = *ball;
+    double before = (double)mirror->offset;
+    for (int axis = 0; axis < 3; ++axis) {
+        before -= (double)mirror->normal[axis] * ball->center[axis];
+    }
+    *straddles = ball->radius >= 0 && ball->radius > before;
+    if (!(ball->radius >= 0) || !(ball->radius <= (double)FLT_MAX)) return both;
+    if (before < 0 && !(ball->radius + before >= 0)) {
+        both.radius = -1; /* all of it is cut */
+        return both;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        both.center[axis] += before * (double)mirror->normal[axis];
+    }
+    both.radius =
+        before < 0 ? sqrt(ball->radius * ball->radius - before * before) : ball->radius + before;
+    return both;
+}
+
 spti_ball spti_map_ball(const spti_ball *ball, const spt_mobius *map) {
     spti_ball image = *ball;
     spt_region region = {SPT_REGION_BALL, {0, 0, 0}, 0};

@@ -8,7 +8,7 @@
 #include "../trace/driver.h"
 #include "locate.h"
 
-/* A mirror of unit normal, or 0. One that is unit already keeps its bits. */
+/* A mirror of unit normal, or 0. One that is unit up to rounding keeps its bits. */
 static int build_mirror(spt_mirror *mirror) {
     double square = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -16,36 +16,13 @@ static int build_mirror(spt_mirror *mirror) {
         square += (double)mirror->normal[axis] * (double)mirror->normal[axis];
     }
     if (!spti_finite(mirror->offset) || !(square > 0)) return 0;
-    if (fabs(square - 1) <= 1e-5) return fabsf(mirror->offset) <= SPTI_FARTHEST;
+    if (fabs(square - 1) <= 0x1p-22) return fabsf(mirror->offset) <= SPTI_FARTHEST;
     const double factor = 1 / sqrt(square), offset = (double)mirror->offset * factor;
     for (int axis = 0; axis < 3; ++axis) {
         mirror->normal[axis] = (float)((double)mirror->normal[axis] * factor);
     }
     mirror->offset = (float)offset;
     return fabsf(mirror->offset) <= SPTI_FARTHEST;
-}
-
-/* What a ball becomes that is cut at a mirror and joined by the image of what is left. The center
- * moves onto the mirror: what is left is then nearer than radius + distance, since
- * |x - m|^2 = |x - c|^2 + 2 distance (how far x is before c) + distance^2. */
-static spti_ball mirrored(const spti_ball *ball, const spt_mirror *mirror, int *straddles) {
-    spti_ball both = *ball;
-    double before = (double)mirror->offset;
-    for (int axis = 0; axis < 3; ++axis) {
-        before -= (double)mirror->normal[axis] * ball->center[axis];
-    }
-    *straddles = ball->radius > before;
-    if (!(ball->radius >= 0) || !(ball->radius <= (double)FLT_MAX)) return both;
-    if (before < 0 && !(ball->radius + before >= 0)) {
-        both.radius = -1; /* all of it is cut */
-        return both;
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-        both.center[axis] += before * (double)mirror->normal[axis];
-    }
-    both.radius =
-        before < 0 ? sqrt(ball->radius * ball->radius - before * before) : ball->radius + before;
-    return both;
 }
 
 static int build_levels(const spt_krs_model *model, spt_krs *krs) {
@@ -58,7 +35,7 @@ static int build_levels(const spt_krs_model *model, spt_krs *krs) {
         if (!spti_build_kernel(&model->kernels[level + 1], &krs->kernels[level + 1], &kernel)) {
             return 0;
         }
-        whole = mirrored(&whole, &krs->mirrors[level], &straddles);
+        whole = spti_mirror_ball(&whole, &krs->mirrors[level], &straddles);
         if (straddles) krs->straddles |= UINT64_C(1) << level;
         whole = spti_ball_around(&whole, &kernel);
     }
@@ -116,22 +93,24 @@ static void krs_distance(void *user, size_t n, const float *x, const float *y, c
     const spt_krs *const krs = user;
     if (krs->field_kernels != 0) {
         distance_with_fields(krs, n, x, y, z, distance);
-        return;
+    } else { /* in one stretch, where points stay in registers */
+        const spti_stretch model = stretch_of(krs);
+        const spti_way way = {.x = spti_unwritten(x),
+                              .y = spti_unwritten(y),
+                              .z = spti_unwritten(z),
+                              .distance = distance};
+        spti_walk(&model, SPTI_WALK_FOLD, krs->max_lanes, n, &way);
     }
-    /* In one stretch points stay in registers. */
-    const spti_stretch model = stretch_of(krs);
-    const spti_way way = {.x = spti_unwritten(x),
-                          .y = spti_unwritten(y),
-                          .z = spti_unwritten(z),
-                          .distance = distance};
-    spti_walk(&model, SPTI_WALK_FOLD, krs->max_lanes, n, &way);
+    spti_settle_far(n, x, y, z, distance);
 }
 
 static float krs_point(void *user, float x, float y, float z) {
     const spti_stretch model = stretch_of(user);
     SPTI_ALIGNED(64) float distance[SPTI_GROUP];
-    const spti_way way = {.x = &x, .y = &y, .z = &z, .distance = distance};
+    float folded[3] = {x, y, z};
+    const spti_way way = {.x = &folded[0], .y = &folded[1], .z = &folded[2], .distance = distance};
     spti_walk(&model, SPTI_WALK_FOLD, 1, 1, &way);
+    spti_settle_far(1, &x, &y, &z, distance);
     return distance[0];
 }
 

@@ -20,10 +20,11 @@ static float magnitude_of(const float point[3]) {
     return largest;
 }
 
-/* The direction in which a kernel's distance grows. A field without a gradient is asked around. */
+/* The gradient of a kernel's distance: for callers' fields with its length, which may be anything
+ * up to 1, from values around. */
 static void slope_at(const spt_built_kernel *kernel, const float point[3], double slope[3]) {
     const float step = kernel->number[SHAPE_EXTENT] * 0x1p-10f;
-    if (kernel->kind != SPT_KERNEL_FIELD || kernel->gradient != NULL) {
+    if (kernel->kind != SPT_KERNEL_FIELD) {
         spti_kernel_gradient(kernel, point, slope);
         return;
     }
@@ -58,10 +59,13 @@ static int draw_surface(const spt_built_kernel *kernel, uint32_t *state, float p
         const float distance = spti_kernel_distance(kernel, point);
         if (!spti_finite(distance)) return 0;
         if (fabsf(distance) <= 0x1p-20f * (magnitude_of(point) + extent)) return 1;
+        /* Newton's rule, by no more than the extent. */
         slope_at(kernel, point, slope);
-        for (int axis = 0; axis < 3; ++axis) {
-            point[axis] -= (float)((double)distance * slope[axis]);
-        }
+        const double square = slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2];
+        double share = (double)distance / (square > 1e-12 ? square : 1e-12);
+        const double most = (double)extent / sqrt(square > 1e-12 ? square : 1e-12);
+        share = share > most ? most : share < -most ? -most : share;
+        for (int axis = 0; axis < 3; ++axis) point[axis] -= (float)(share * slope[axis]);
     }
     return 0;
 }

@@ -15,11 +15,24 @@
 
 /* What a point met on its way down to its kernel, by level. */
 typedef struct locate_trail {
-    float beyond[SPT_KRS_LEVELS];      /* the mirror, before it was folded */
-    pull_quaternion u[SPT_KRS_LEVELS]; /* of the map */
-    float inverse[SPT_KRS_LEVELS];     /* 1 / |u|^2 */
-    float shrink[SPT_KRS_LEVELS];      /* lengths at the mirror are so many times the world's */
+    float beyond[SPT_KRS_LEVELS];     /* the mirror, before it was folded */
+    spt_quaternion u[SPT_KRS_LEVELS]; /* of the map, of length 1 */
+    float shrink[SPT_KRS_LEVELS];     /* lengths at the mirror are so many times the world's */
 } locate_trail;
+
+/* The direction of u = a - x c, which is (pole - x) c. */
+static void find_denominator(const spt_built_map *map, shape_points x, spt_quaternion *u) {
+    const spt_quaternion c = spt_quaternion_of((double)map->c[0], (double)map->c[1],
+                                               (double)map->c[2], (double)map->c[3]);
+    const spt_quaternion a = spt_quaternion_of((double)map->a[0], (double)map->a[1],
+                                               (double)map->a[2], (double)map->a[3]);
+    const spt_quaternion away =
+        spt_quaternion_of(0, (double)map->pole[0] - (double)x.x, (double)map->pole[1] - (double)x.y,
+                          (double)map->pole[2] - (double)x.z);
+    *u = map->c_length > 0.0f ? spt_quaternion_product(away, c) : a;
+    const double square = spt_quaternion_square(*u);
+    *u = square > 0 ? spt_quaternion_scaled(*u, 1 / sqrt(square)) : spt_quaternion_of(1, 0, 0, 0);
+}
 
 /* Through mirror `level`, and map level - 1. */
 static shape_points step_down(const spti_stretch *model, uint32_t level, shape_points x,
@@ -34,10 +47,8 @@ static shape_points step_down(const spti_stretch *model, uint32_t level, shape_p
                                 : pull_mirror(model, level, x);
     }
     if (model->maps != NULL && level > 0) {
-        const spt_built_map *const map = &model->maps[level - 1];
-        float square;
-        trail->u[level - 1] = pull_denominator(map, x, &square, &trail->inverse[level - 1]);
-        x = pull_level(map, x, scale);
+        find_denominator(&model->maps[level - 1], x, &trail->u[level - 1]);
+        x = pull_level(&model->maps[level - 1], x, scale);
     }
     return x;
 }
@@ -50,19 +61,14 @@ static double blend(double beyond, double width) {
     return s < 1 ? s * s * (3 - 2 * s) : 1;
 }
 
-/* Appendix C, without the factor |lambda| / |u|^2 that would change its length. */
-static void push_vector(const spt_built_map *map, pull_quaternion u, double inverse, double g[3]) {
-    const double r = (double)u.real, x = (double)u.pure.x, y = (double)u.pure.y;
-    const double z = (double)u.pure.z;
-    /* u g, then times u* */
-    const double p0 = -(x * g[0] + y * g[1] + z * g[2]);
-    const double p1 = r * g[0] + y * g[2] - z * g[1];
-    const double p2 = r * g[1] + z * g[0] - x * g[2];
-    const double p3 = r * g[2] + x * g[1] - y * g[0];
-    const double factor = (double)map->orientation * inverse;
-    g[0] = factor * (p1 * r - p0 * x - p2 * z + p3 * y);
-    g[1] = factor * (p2 * r - p0 * y - p3 * x + p1 * z);
-    g[2] = factor * (p3 * r - p0 * z - p1 * y + p2 * x);
+/* Appendix C: sign(lambda) u g u*, for u of length 1, which keeps the length of g. */
+static void push_vector(const spt_built_map *map, spt_quaternion u, double g[3]) {
+    const spt_quaternion vector = spt_quaternion_of(0, g[0], g[1], g[2]);
+    const spt_quaternion pushed =
+        spt_quaternion_product(spt_quaternion_product(u, vector), spt_quaternion_conjugate(u));
+    g[0] = (double)map->orientation * pushed.x;
+    g[1] = (double)map->orientation * pushed.y;
+    g[2] = (double)map->orientation * pushed.z;
 }
 
 /* Widths of the blend at mirrors: in the space of the mirror, and in the world. */
@@ -75,8 +81,7 @@ static void climb(const spti_stretch *model, const locate_trail *trail, uint32_t
                   const locate_widths *widths, double g[3]) {
     for (uint32_t level = kernel; level <= model->levels; ++level) {
         if (model->maps != NULL && level > 0) {
-            push_vector(&model->maps[level - 1], trail->u[level - 1],
-                        (double)trail->inverse[level - 1], g);
+            push_vector(&model->maps[level - 1], trail->u[level - 1], g);
         }
         if (level == model->levels) break;
         const double pixel = widths->footprint * (double)trail->shrink[level];

@@ -5,6 +5,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "quaternion.h"
 
@@ -94,6 +95,40 @@ static int round_pole(spt_quaternion p, spt_quaternion q, double c_length, float
     return 1;
 }
 
+/* How the preimage is computed: by quaternions, or by an inversion between the image of infinity and
+ * the center. With q - center = -lambda c* (p - pole) c / (|c|^4 |p - pole|^2) the matrix is a rotation
+ * or reflection over |c|^2. Where the center is near, seen in inversion radii, this loses less than
+ * the sums d* p + b* do, which cancel; for maps that are nearly similar ones it is the other way
+ * round. Judged at the image of the origin. */
+static void build_inversion(const spt_mobius *map, double c_length, spt_built_map *built) {
+    const spt_quaternion c = spt_quaternion_scaled(map->c, 1.0 / c_length);
+    const spt_quaternion back = spt_quaternion_conjugate(c);
+    const double origin[3] = {0, 0, 0}, factor = -map->orientation / (c_length * c_length);
+    double image[3], reach[3] = {0, 0, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+        const spt_quaternion unit =
+            spt_quaternion_of(0, axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
+        const spt_quaternion turned = spt_quaternion_product(spt_quaternion_product(back, unit), c);
+        built->matrix[axis] = (float)(factor * turned.x);
+        built->matrix[3 + axis] = (float)(factor * turned.y);
+        built->matrix[6 + axis] = (float)(factor * turned.z);
+    }
+    built->c_inverse = (float)(1.0 / (c_length * c_length));
+    if (!(built->c_inverse >= FLT_MIN && built->c_inverse <= FLT_MAX)) return;
+    if (!spt_mobius_point(map, origin, image)) {
+        built->inverts = 1;
+        return;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        reach[0] += fabs(image[axis]);
+        reach[1] += fabs((double)built->pole[axis]);
+        reach[2] += fabs((double)built->center[axis]);
+    }
+    const double u = sqrt(spt_mobius_scale(map, origin)); /* |DL| = |u|^2 at the image */
+    const double sums = (norm(map->d) * reach[0] + norm(map->b)) / u;
+    built->inverts = reach[2] + (reach[0] + reach[1]) / (u * u) <= 2 * sums;
+}
+
 int spti_build_map(const spt_mobius *map, spt_built_map *built) {
     const double most = 0x1p63;
     spt_built_map result;
@@ -110,6 +145,11 @@ int spti_build_map(const spt_mobius *map, spt_built_map *built) {
     round_entry(map->d, result.d);
     result.c_length = (float)c_length;
     result.orientation = (float)map->orientation;
+    result.inverts = 0;
+    result.c_inverse = 0.0f;
+    memset(result.matrix, 0, sizeof result.matrix);
+    memset(result.whole, 0, sizeof result.whole);
+    result.whole[3] = FLT_MAX;
     for (axis = 0; axis < 3; ++axis) {
         result.pole[axis] = INFINITY;
         result.center[axis] = 0.0f;
@@ -120,6 +160,7 @@ int spti_build_map(const spt_mobius *map, spt_built_map *built) {
         const spt_quaternion back = spt_quaternion_conjugate(map->d);
         if (!round_pole(map->a, conjugate, c_length, result.pole)) return 0;
         if (!round_pole(back, map->c, c_length, result.center)) return 0;
+        build_inversion(map, c_length, &result);
     }
     /* u = a - p c is off by about 2^-23 |a| where it cancels, p being float. */
     least = 0x1p-22 * a_length;

@@ -9,21 +9,8 @@
 #include "locate.h"
 #include "mobius_build.h"
 
-/* The ball around what is before x = 0 of a ball, and its image. */
-static spti_ball mirrored(const spti_ball *ball, int *straddles) {
-    spti_ball both = *ball;
-    const double before = -ball->center[0];
-    *straddles = ball->radius > before;
-    if (!(ball->radius >= 0) || !(ball->radius <= (double)FLT_MAX)) return both;
-    if (before < 0 && !(ball->radius + before >= 0)) {
-        both.radius = -1;
-        return both;
-    }
-    both.center[0] = 0;
-    both.radius =
-        before < 0 ? sqrt(ball->radius * ball->radius - before * before) : ball->radius + before;
-    return both;
-}
+/* What levels are mirrored at. */
+static const spt_mirror mirror_at_0 = {{1, 0, 0}, 0};
 
 static int build_levels(const spt_moekrs_model *model, spt_moekrs *moekrs) {
     spti_ball whole, kernel;
@@ -33,7 +20,9 @@ static int build_levels(const spt_moekrs_model *model, spt_moekrs *moekrs) {
         spt_built_kernel *const built = &moekrs->kernels[level + 1];
         if (!spti_build_map(&model->maps[level], &moekrs->maps[level])) return 0;
         if (!spti_build_kernel(&model->kernels[level + 1], built, &kernel)) return 0;
-        if (!(model->unmirrored >> level & 1)) whole = mirrored(&whole, &straddles);
+        if (!(model->unmirrored >> level & 1)) {
+            whole = spti_mirror_ball(&whole, &mirror_at_0, &straddles);
+        }
         if (straddles) moekrs->straddles |= UINT64_C(1) << level;
         whole = spti_ball_around(&whole, &kernel);
         whole = spti_map_ball(&whole, &model->maps[level]);
@@ -110,28 +99,29 @@ static void moekrs_distance(void *user, size_t n, const float *x, const float *y
     const spt_moekrs *const moekrs = user;
     if (moekrs->field_kernels != 0) {
         distance_with_fields(moekrs, n, x, y, z, distance);
-        return;
+    } else { /* in one stretch, where all stays in registers */
+        const spti_stretch model = stretch_of(moekrs);
+        const spti_way way = {.x = spti_unwritten(x),
+                              .y = spti_unwritten(y),
+                              .z = spti_unwritten(z),
+                              .distance = distance};
+        spti_walk(&model, SPTI_WALK_PULL, moekrs->max_lanes, n, &way);
     }
-    /* In one stretch all stays in registers. */
-    const spti_stretch model = stretch_of(moekrs);
-    const spti_way way = {.x = spti_unwritten(x),
-                          .y = spti_unwritten(y),
-                          .z = spti_unwritten(z),
-                          .distance = distance};
-    spti_walk(&model, SPTI_WALK_PULL, moekrs->max_lanes, n, &way);
+    spti_settle_far(n, x, y, z, distance);
 }
 
 static float moekrs_point(void *user, float x, float y, float z) {
     const spti_stretch model = stretch_of(user);
-    float distance, shrink, reach, clear;
-    const spti_way way = {.x = &x,
-                          .y = &y,
-                          .z = &z,
+    float pulled[3] = {x, y, z}, distance, shrink, reach, clear;
+    const spti_way way = {.x = &pulled[0],
+                          .y = &pulled[1],
+                          .z = &pulled[2],
                           .distance = &distance,
                           .shrink = &shrink,
                           .reach = &reach,
                           .clear = &clear};
     spti_walk(&model, SPTI_WALK_PULL, 1, 1, &way);
+    spti_settle_far(1, &x, &y, &z, &distance);
     return distance;
 }
 
@@ -166,13 +156,19 @@ static void moekrs_clearance(void *user, size_t n, const float *x, const float *
     copy_points(&points, n, x, y, z);
     memcpy(points.shrink, radius, n * sizeof *radius);
     spti_walk(&model, SPTI_WALK_PROBE, moekrs->max_lanes, n, &way);
+    spti_settle_far_balls(n, x, y, z, radius, clearance);
 }
 
 static float moekrs_clearance_at(void *user, float x, float y, float z, float radius) {
     const spti_stretch model = stretch_of(user);
-    float clearance;
-    const spti_way way = {.x = &x, .y = &y, .z = &z, .distance = &clearance, .radius = &radius};
+    float pulled[3] = {x, y, z}, pulled_radius = radius, clearance;
+    const spti_way way = {.x = &pulled[0],
+                          .y = &pulled[1],
+                          .z = &pulled[2],
+                          .distance = &clearance,
+                          .radius = &pulled_radius};
     spti_walk(&model, SPTI_WALK_PROBE, 1, 1, &way);
+    spti_settle_far_balls(1, &x, &y, &z, &radius, &clearance);
     return clearance;
 }
 

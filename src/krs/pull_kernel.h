@@ -34,6 +34,13 @@ SPTI_INLINE spt_wide pull_dot(shape_points x, const float q[4]) {
                    spt_mul(x.z, spt_splat(q[3])));
 }
 
+/* Where a map takes a point to. */
+typedef struct pull_image {
+    shape_points point, from_center; /* from the preimage of infinity */
+    spt_wide inverse;                /* 1 / |u|^2 */
+    spt_wide bend;                   /* |c| / |u| */
+} pull_image;
+
 /* What |u|^2 counts as at most, so that the products of a preimage do not overflow: far from the
  * pole; or, of a map without one, what its entries allow. */
 SPTI_INLINE spt_wide pull_most(const spt_built_map *map) {
@@ -67,9 +74,10 @@ SPTI_INLINE pull_quaternion pull_denominator(const spt_built_map *map, shape_poi
     return u;
 }
 
-/* The preimage of x; from far away that of infinity. */
-SPTI_INLINE shape_points pull_point(const spt_built_map *map, shape_points x, pull_quaternion u,
-                                    spt_wide square, spt_wide inverse) {
+/* By quaternions; from far away that of infinity. */
+SPTI_INLINE pull_image pull_by_quaternions(const spt_built_map *map, shape_points x) {
+    spt_wide square, inverse;
+    const pull_quaternion u = pull_denominator(map, x, &square, &inverse);
     const shape_points cross = pull_cross(x, map->d); /* -d x, as d* has it */
     const spt_wide real = spt_splat(map->d[0]);
     const spt_wide w = spt_add(pull_dot(x, map->d), spt_splat(map->b[0]));
@@ -79,15 +87,56 @@ SPTI_INLINE shape_points pull_point(const spt_built_map *map, shape_points x, pu
     const spt_wide cross_x = spt_sub(spt_mul(v.y, u.pure.z), spt_mul(v.z, u.pure.y));
     const spt_wide cross_y = spt_sub(spt_mul(v.z, u.pure.x), spt_mul(v.x, u.pure.z));
     const spt_wide cross_z = spt_sub(spt_mul(v.x, u.pure.y), spt_mul(v.y, u.pure.x));
-    shape_points image = {
+    shape_points q = {
         spt_mul(spt_add(spt_add(spt_mul(w, u.pure.x), spt_mul(v.x, u.real)), cross_x), inverse),
         spt_mul(spt_add(spt_add(spt_mul(w, u.pure.y), spt_mul(v.y, u.real)), cross_y), inverse),
         spt_mul(spt_add(spt_add(spt_mul(w, u.pure.z), spt_mul(v.z, u.real)), cross_z), inverse)};
     const spt_mask near = spt_less(square, pull_most(map));
-    image.x = spt_select(near, image.x, spt_splat(map->center[0]));
-    image.y = spt_select(near, image.y, spt_splat(map->center[1]));
-    image.z = spt_select(near, image.z, spt_splat(map->center[2]));
+    q.x = spt_select(near, q.x, spt_splat(map->center[0]));
+    q.y = spt_select(near, q.y, spt_splat(map->center[1]));
+    q.z = spt_select(near, q.z, spt_splat(map->center[2]));
+    const pull_image image = {q,
+                              {spt_sub(q.x, spt_splat(map->center[0])),
+                               spt_sub(q.y, spt_splat(map->center[1])),
+                               spt_sub(q.z, spt_splat(map->center[2]))},
+                              inverse,
+                              spt_mul(spt_splat(map->c_length), spt_sqrt(inverse))};
     return image;
+}
+
+SPTI_INLINE spt_wide pull_row(const float row[3], shape_points y) {
+    return spt_add(spt_add(spt_mul(y.x, spt_splat(row[0])), spt_mul(y.y, spt_splat(row[1]))),
+                   spt_mul(y.z, spt_splat(row[2])));
+}
+
+/* By an inversion. */
+SPTI_INLINE pull_image pull_by_inversion(const spt_built_map *map, shape_points x) {
+    const spt_wide zero = spt_splat(0.0f), near = spt_splat(map->least / map->c_length);
+    shape_points y = {spt_sub(x.x, spt_splat(map->pole[0])), spt_sub(x.y, spt_splat(map->pole[1])),
+                      spt_sub(x.z, spt_splat(map->pole[2]))};
+    const spt_wide whole =
+        spt_add(spt_add(spt_mul(y.x, y.x), spt_mul(y.y, y.y)), spt_mul(y.z, y.z));
+    const spt_wide floor = spt_mul(near, near);
+    const spt_mask small = spt_less(whole, floor);
+    y.x = spt_select(small, near, y.x);
+    y.y = spt_select(small, zero, y.y);
+    y.z = spt_select(small, zero, y.z);
+    const spt_wide inverse = spt_div(spt_splat(1.0f), spt_select(small, floor, whole));
+    const shape_points v = {spt_mul(y.x, inverse), spt_mul(y.y, inverse), spt_mul(y.z, inverse)};
+    const shape_points from_center = {pull_row(&map->matrix[0], v), pull_row(&map->matrix[3], v),
+                                      pull_row(&map->matrix[6], v)};
+    const pull_image image = {{spt_add(from_center.x, spt_splat(map->center[0])),
+                               spt_add(from_center.y, spt_splat(map->center[1])),
+                               spt_add(from_center.z, spt_splat(map->center[2]))},
+                              from_center,
+                              spt_mul(inverse, spt_splat(map->c_inverse)),
+                              spt_sqrt(inverse)};
+    return image;
+}
+
+/* The choice is one a level, not one a point. */
+SPTI_INLINE pull_image pull_through(const spt_built_map *map, shape_points x) {
+    return map->inverts ? pull_by_inversion(map, x) : pull_by_quaternions(map, x);
 }
 
 /* What is joined at each level: a bound of the distance in the world, */
@@ -116,16 +165,14 @@ SPTI_INLINE spt_wide pull_from_whole(const spt_built_map *map, shape_points x) {
  * does not hold infinity, which is what is near: there the ball around all that was mapped tells
  * more. So it does where lengths have shrunk so far that no float32 distance is left of them. */
 SPTI_INLINE shape_points pull_level(const spt_built_map *map, shape_points x, pull_scale *scale) {
-    spt_wide square, inverse;
-    const pull_quaternion u = pull_denominator(map, x, &square, &inverse);
-    const spt_wide bend = spt_mul(spt_splat(map->c_length), spt_sqrt(inverse));
+    const pull_image image = pull_through(map, x);
     scale->clear = spt_max(pull_radius(scale, pull_from_whole(map, x)), scale->clear);
-    scale->reach = spt_add(scale->reach, spt_mul(scale->shrink, bend));
-    scale->shrink = spt_mul(scale->shrink, inverse);
+    scale->reach = spt_add(scale->reach, spt_mul(scale->shrink, image.bend));
+    scale->shrink = spt_mul(scale->shrink, image.inverse);
     /* Neither infinity nor 0, which no distance may be divided by; 2^64 / 2^100 is nothing. */
     scale->reach = spt_min(scale->reach, spt_splat(0x1p100f));
     scale->shrink = spt_max(spt_min(scale->shrink, spt_splat(0x1p100f)), spt_splat(FLT_MIN));
-    return pull_point(map, x, u, square, inverse);
+    return image.point;
 }
 
 /* A kernel's part of the bound. */
@@ -144,36 +191,30 @@ typedef struct pull_ball {
 
 SPTI_INLINE shape_points pull_ball_level(const spt_built_map *map, shape_points x,
                                          pull_ball *ball) {
-    const spt_wide one = spt_splat(1.0f);
-    const spt_wide c_square = spt_splat(map->c_length * map->c_length);
-    spt_wide square, inverse;
-    const pull_quaternion u = pull_denominator(map, x, &square, &inverse);
-    const shape_points q = pull_point(map, x, u, square, inverse);
+    const spt_wide one = spt_splat(1.0f), largest = spt_splat(0x1p60f);
+    const pull_image image = pull_through(map, x);
     const spt_mask away = spt_less(ball->radius, pull_from_whole(map, x));
     ball->clear = spt_mask_or(ball->clear, spt_mask_and_not(away, ball->inside_out));
     /* m < 1: the ball does not reach the pole. One that is larger than anything counts as one that
      * does; either number is held to where no product is infinity by 0. */
-    const spt_wide largest = spt_splat(0x1p60f), held = spt_min(ball->radius, largest);
-    const spt_wide reached = spt_mul(spt_mul(spt_mul(held, held), c_square), inverse);
-    const spt_wide m = spt_min(reached, largest);
-    const spt_mask beyond = spti_mask_not(spt_less(ball->radius, largest));
-    ball->inside_out = spt_mask_or(ball->inside_out, beyond);
-    const spt_mask short_of_it = spt_less(m, one);
+    const spt_wide held = spt_min(ball->radius, largest), share_of_way = spt_mul(held, image.bend);
+    const spt_wide m = spt_min(spt_mul(share_of_way, share_of_way), largest);
+    const spt_mask short_of_it = spt_mask_and(spt_less(m, one), spt_less(ball->radius, largest));
     ball->inside_out = spt_mask_or(ball->inside_out, spti_mask_not(short_of_it));
     const spt_wide growth = spt_div(one, spt_select(short_of_it, spt_sub(one, m), one));
     /* What means nothing any more must not shrink to where processors are slow. */
     const spt_wide share = spt_select(ball->inside_out, spt_splat(0.0f), spt_mul(m, growth));
-    const spt_wide radius = spt_mul(spt_mul(held, inverse), growth);
-    const shape_points shift = {spt_mul(spt_sub(q.x, spt_splat(map->center[0])), share),
-                                spt_mul(spt_sub(q.y, spt_splat(map->center[1])), share),
-                                spt_mul(spt_sub(q.z, spt_splat(map->center[2])), share)};
+    const spt_wide radius = spt_mul(spt_mul(held, image.inverse), growth);
+    const shape_points shift = {spt_mul(image.from_center.x, share),
+                                spt_mul(image.from_center.y, share),
+                                spt_mul(image.from_center.z, share)};
     /* What rounding of m does to both is growth times larger: so much the ball is made larger. */
     const spt_wide far = spt_add(spt_add(spt_abs(shift.x), spt_abs(shift.y)), spt_abs(shift.z));
     const spt_wide noise = spt_mul(spt_mul(growth, spt_splat(0x1p-21f)), spt_add(far, radius));
     ball->radius = spt_select(ball->inside_out, one, spt_add(radius, noise));
-    const shape_points image = {spt_add(q.x, shift.x), spt_add(q.y, shift.y),
-                                spt_add(q.z, shift.z)};
-    return image;
+    const shape_points moved = {spt_add(image.point.x, shift.x), spt_add(image.point.y, shift.y),
+                                spt_add(image.point.z, shift.z)};
+    return moved;
 }
 
 /* The mirror x = 0 of a level, of points that are to be on x <= 0. */

@@ -8,11 +8,13 @@
 #include <spheretrace/mobius.h>
 
 #include <float.h>
+#include <math.h>
 
 #include "../backend/isa.h"
 #include "../base/compiler.h"
 
-/* Coordinates of what models are built from, and of the points they are asked for. */
+/* Coordinates of what models are built from. A point beyond stands for the nearest one within, whose
+ * distances are joined with the way to it: they go on growing, and no square overflows. */
 #define SPTI_FARTHEST 1e18f
 
 /* Levels of a model that follow each other without a caller's field between them: those numbered
@@ -69,6 +71,20 @@ typedef enum spti_walk_kind { SPTI_WALK_FOLD, SPTI_WALK_PULL, SPTI_WALK_PROBE } 
 void spti_walk(const spti_stretch *model, spti_walk_kind kind, uint32_t max_lanes, size_t n,
                const spti_way *way);
 
+/* Joins the distances of n points with their ways to the nearest one within SPTI_FARTHEST; */
+void spti_settle_far(size_t n, const float *x, const float *y, const float *z, float *distance);
+
+/* or the clearances of balls. */
+void spti_settle_far_balls(size_t n, const float *x, const float *y, const float *z,
+                           const float *radius, float *clearance);
+
+/* What a free ball of radius k at the end of a way through maps leaves free in the world, as in
+ * pull_kernel.h. */
+static inline float spti_free_radius(float k, float shrink, float reach) {
+    if (k > 0x1p64f) k = 0x1p64f;
+    return k / (shrink + reach * fabsf(k));
+}
+
 /* Asks the caller's field of a kernel for n points, which are kept. lipschitz is divided by. */
 void spti_ask_kernel(const spt_built_kernel *kernel, size_t n, const spti_way *way,
                      float *distance);
@@ -82,6 +98,10 @@ int spti_build_kernel(const spt_kernel *kernel, spt_built_kernel *built, spti_ba
 
 /* The smallest ball around two. */
 spti_ball spti_ball_around(const spti_ball *a, const spti_ball *b);
+
+/* What a ball becomes that is cut at a plane and joined by the mirror image of what is left.
+ * *straddles: whether it reaches beyond. */
+spti_ball spti_mirror_ball(const spti_ball *ball, const spt_mirror *mirror, int *straddles);
 
 /* The image of a ball; one that holds the pole has no end. */
 spti_ball spti_map_ball(const spti_ball *ball, const spt_mobius *map);

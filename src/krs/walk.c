@@ -28,12 +28,6 @@ void spti_ask_kernel(const spt_built_kernel *kernel, size_t n, const spti_way *w
     for (size_t i = 0; i < n; ++i) distance[i] /= kernel->lipschitz;
 }
 
-/* What a bound of the distance is in the world, as in pull_kernel.h. */
-static float in_world(float k, float shrink, float reach) {
-    if (k > 0x1p64f) k = 0x1p64f;
-    return k / (shrink + reach * fabsf(k));
-}
-
 static SPTI_NOINLINE void join_field(const spt_built_kernel *kernel, spti_walk_kind kind, size_t n,
                                      const spti_way *way) {
     SPTI_ALIGNED(64) float asked[SPT_BATCH];
@@ -41,7 +35,7 @@ static SPTI_NOINLINE void join_field(const spt_built_kernel *kernel, spti_walk_k
     for (size_t i = 0; i < n; ++i) {
         float k = asked[i];
         if (kind == SPTI_WALK_PULL) {
-            k = in_world(k, way->shrink[i], way->reach[i]);
+            k = spti_free_radius(k, way->shrink[i], way->reach[i]);
             if (way->clear[i] > 0.0f && k < way->clear[i]) k = way->clear[i];
         }
         if (kind == SPTI_WALK_PROBE) {
@@ -70,5 +64,45 @@ void spti_walk(const spti_stretch *model, spti_walk_kind kind, uint32_t max_lane
         if (asks) join_field(&model->kernels[level], kind, n, way);
         stretch.first = level - 1;
         stretch.begins = 0;
+    }
+}
+
+/* How far a coordinate is beyond. */
+static double beyond(float coordinate) {
+    const double most = (double)SPTI_FARTHEST, magnitude = fabs((double)coordinate);
+    return magnitude > most ? magnitude - most : 0;
+}
+
+static double way_back(float x, float y, float z) {
+    return sqrt(beyond(x) * beyond(x) + beyond(y) * beyond(y) + beyond(z) * beyond(z));
+}
+
+/* Whether any point is beyond; without a branch a point. */
+static int any_is_far(size_t n, const float *x, const float *y, const float *z) {
+    int any = 0;
+    for (size_t i = 0; i < n; ++i) {
+        any |= fabsf(x[i]) > SPTI_FARTHEST;
+        any |= fabsf(y[i]) > SPTI_FARTHEST;
+        any |= fabsf(z[i]) > SPTI_FARTHEST;
+    }
+    return any;
+}
+
+void spti_settle_far(size_t n, const float *x, const float *y, const float *z, float *distance) {
+    if (!any_is_far(n, x, y, z)) return;
+    for (size_t i = 0; i < n; ++i) {
+        const double way = way_back(x[i], y[i], z[i]), d = (double)distance[i];
+        if (!(way > 0)) continue;
+        const double joined = sqrt(d * d + way * way);
+        distance[i] = (float)(d < 0 ? -joined : joined);
+    }
+}
+
+void spti_settle_far_balls(size_t n, const float *x, const float *y, const float *z,
+                           const float *radius, float *clearance) {
+    if (!any_is_far(n, x, y, z)) return;
+    for (size_t i = 0; i < n; ++i) {
+        const double way = way_back(x[i], y[i], z[i]) - (double)radius[i];
+        if (way >= 0 && !(clearance[i] >= (float)way)) clearance[i] = (float)way;
     }
 }
