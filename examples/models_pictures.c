@@ -95,8 +95,14 @@ int models_pictures(const models_options *options) {
         const extra_picture own = {models[i]->name, models[i]->name, 0, -1.0f, 0.0};
         good = make(options, &own, world, 0);
     }
+    /* What is to be compared needs no size. */
+    models_options smaller = *options;
+    if (options->name == NULL) {
+        smaller.width = options->width / 2;
+        smaller.height = options->height / 2;
+    }
     for (size_t i = 0; good && i < extra_count; ++i) {
-        good = make(options, &extra_pictures[i], world, 0);
+        good = make(&smaller, &extra_pictures[i], world, 0);
     }
     good = good && make(options, &iterations, world, 1);
     free(world);

@@ -20,8 +20,8 @@
  * LEVEL OF DETAIL comes from settings.pixel_radius: rays stop at half a pixel, which thickens what
  * is thinner and merges what is closer, continuously with the distance (section 4). What is shaded
  * there should vary as little: spt_krs_locate() smooths normals over the width of a pixel. Moving
- * pictures want spt_relaxed() or spt_basic(): what longer steps leave below half a pixel varies more
- * from frame to frame where rays graze (by 38 % in a wood), and spt_refine(). */
+ * pictures want spt_refine(), and spt_relaxed() or spt_basic(): what longer steps leave below half
+ * a pixel varies more from frame to frame where rays graze (by 38 % in a wood). */
 #ifndef SPHERETRACE_KRS_H
 #define SPHERETRACE_KRS_H
 
@@ -192,9 +192,10 @@ SPT_API spt_status spt_krs_build(const spt_krs_model *model, spt_krs *krs);
  * kernels have one, a gradient callback, which sees smooth. krs is not copied: it must stay where
  * it is as long as the field is used. The callbacks keep equal bits at every width.
  *     d = K_n(p);  for i = n-1 .. 0:  fold p at mirror i;  d = min(d, K_i(p))      (Algorithm 1)
- * without branches, for points with coordinates of up to 1e18; any other stands for the nearest one
- * of those. |d - exact| <= 2^-22 (n + 4) max(|p| + largest |offset|, how far kernels reach,
- * 1). Cost: about 1 ns a level of capsules and evaluation with 16 lanes. */
+ * without branches, with |d - exact| <= 2^-22 (n + 4) max(|p| + largest |offset|, reach of kernels,
+ * 1), for coordinates of up to 1e18; what lies beyond has the distance of the nearest point within,
+ * joined with the way to it.
+ * Cost: about 1 ns a level of capsules and evaluation with 16 lanes. */
 SPT_API spt_field spt_krs_field(const spt_krs *krs);
 
 /* How many kernel instances a model of so many levels has, 2^(levels + 1) - 1; at 64 levels it is
@@ -295,16 +296,15 @@ static inline void spt_triplanar(const float normal[3], uint32_t sharpness, floa
  * infinity; NaN makes the distance NaN. Arrays as in spt_distance_batch_fn. */
 typedef void spt_unmap_batch_fn(void *user, size_t n, float *x, float *y, float *z);
 
-/*   TWIST  a slice at height h over origin, along axis, turns about the axis by rate h,
- *   right-handed
- *   BEND   what comes to stand at h along axis was turned by rate h about the line along `side`
- *          through origin, as spt_bend() does. |rate| times the distance from that line stays below
- *          1, or the body folds over itself
- *   TAPER  a slice at height h is scaled about the axis by 1 + rate h, which must be at least 1/8
- *   all
- *          over the field's bound
- *   SWAY   a slice at height h > 0 moves along `side` by rate h^2 sin(phase + wave h): grass and
- *          trees in the wind, with phase as time passes
+/* The deformations, with h the height over origin along axis:
+ *   TWIST  a slice turns about the axis by rate h, right-handed
+ *   BEND   what comes to stand at h was turned by rate h about the line along `side` through
+ *          origin, as spt_bend() does. |rate| times the distance from that line stays below 1, or
+ *          the body folds over itself
+ *   TAPER  a slice is scaled about the axis by 1 + rate h, which must be at least 1/8 all over the
+ *          field's bound
+ *   SWAY   a slice with h > 0 moves along `side` by rate h^2 sin(phase + wave h): grass and trees
+ *          in the wind, with phase as time passes
  *   MAP    the caller's */
 typedef enum spt_distortion_kind {
     SPT_DISTORTION_TWIST = 1,
@@ -350,8 +350,7 @@ typedef struct spt_distorted {
 /* Makes the field f(W(p)), W the inverse of the deformation, with the Lipschitz constant
  * lipschitz(f) * lipschitz(W). That of W is the largest over a convex region around the distorted
  * body, which is the result's bound: a cylinder about the axis (twist, taper) or `side` (bend), or
- *       a
- * box (sway). Points beyond the region stand for its nearest one, so that the constant holds
+ * a box (sway). Points beyond the region stand for its nearest one, so that the constant holds
  * everywhere; that of a map only in its bound. (Hart 1996; Szécsi et al. 2016, section 5.2.)
  *     twist  (a + sqrt(a^2 + 4)) / 2, a = |rate| times the distance from the axis
  *     bend   1 + |rate| times the distance from the line of turning

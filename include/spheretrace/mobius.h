@@ -13,8 +13,9 @@
  * H.) Maps are kept with |lambda| = 1 and the sign apart, since a long product loses lambda.
  *
  * Maps are built in double; what is evaluated point by point, in float32, for points with
- * coordinates of up to 1e18: any other stands for the nearest one of those. Callbacks that are made
- * here and in krs.h take up to 14 KiB of stack of their own. */
+ * coordinates of up to 1e18; what lies beyond is joined to the nearest point within, as in krs.h.
+ * Callbacks that are made here and there take up to 14 KiB of stack of their own, which is to be
+ * added to what trace.h says of a level of recursion, also in spt_conformal_trace(). */
 #ifndef SPHERETRACE_MOBIUS_H
 #define SPHERETRACE_MOBIUS_H
 
@@ -351,8 +352,7 @@ SPT_API spt_field spt_moekrs_field(const spt_moekrs *moekrs);
 
 /* The model as a body that answers probes (Algorithm 3, mended): a ball is carried through the
  * maps, by center and radius, and tested against each kernel; one that comes out inside-out at any
- *       level is
- * not free. clearance is that of the level that decided, in its own units. */
+ * level is not free. clearance is that of the level that decided, in its own units. */
 SPT_API spt_probe spt_moekrs_probe(const spt_moekrs *moekrs);
 
 /* Where hits lie in a model, as spt_krs_locate(); `scale` then differs from 1. */

@@ -7,6 +7,8 @@
 
 #include "krs_calls.h"
 
+#include <string.h>
+
 enum { krs_most = 72, krs_witnesses = 3, krs_levels = 3, krs_fill = 0xa5 };
 
 /* How the callers' fields of a world are. */
@@ -70,5 +72,23 @@ float krs_witness_distance(const krs_witness *self, float x, float y, float z);
 size_t krs_world_calls(const krs_world *world);
 size_t krs_world_faults(const krs_world *world);
 void krs_world_visit(krs_world *world, void (*visit)(void *to), void *visited);
+
+/* Equality byte by byte, holes between members included, which assignments copy or not: they are no
+ * values that anybody forgot to set. */
+#if defined(__has_feature)
+#if __has_feature(memory_sanitizer)
+#include <sanitizer/msan_interface.h>
+#define KRS_SETTLE_HOLES(memory, size) __msan_unpoison(memory, size)
+#endif
+#endif
+#ifndef KRS_SETTLE_HOLES
+#define KRS_SETTLE_HOLES(memory, size) ((void)(memory), (void)(size))
+#endif
+
+static inline int krs_same_bytes(void *a, void *b, size_t size) {
+    KRS_SETTLE_HOLES(a, size);
+    KRS_SETTLE_HOLES(b, size);
+    return memcmp(a, b, size) == 0;
+}
 
 #endif

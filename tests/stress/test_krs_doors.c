@@ -25,7 +25,7 @@ static void refuse(const char *why) {
     memcpy(&before, &world, sizeof before);
     const spt_status status = krs_place_call(&call);
     CHECK_SAY(status == SPT_BAD_ARGUMENT, "%s: %s", why, spt_status_name(status));
-    CHECK_SAY(memcmp(&before, &world, sizeof before) == 0, "%s: something was written", why);
+    CHECK_SAY(krs_same_bytes(&before, &world, sizeof before), "%s: something was written", why);
 }
 
 static void accept(const char *why) {
@@ -114,7 +114,7 @@ static void F10kd_krs_no_indices(void) {
             call.statistics = NULL;
             memcpy(&before, &world, sizeof before);
             accept("count 0");
-            CHECK(memcmp(&before, &world, sizeof before) == 0);
+            CHECK(krs_same_bytes(&before, &world, sizeof before));
         }
         REFUSE((call.count = 0, call.withheld = KRS_TAKES_MODEL));
         if (moves) continue;

@@ -17,7 +17,7 @@ static void refuse(const char *why) {
     memcpy(&before, &world, sizeof before);
     const spt_status status = krs_place_call(&call);
     CHECK_SAY(status == SPT_BAD_ARGUMENT, "%s: %s", why, spt_status_name(status));
-    CHECK_SAY(memcmp(&before, &world, sizeof before) == 0, "%s: something was written", why);
+    CHECK_SAY(krs_same_bytes(&before, &world, sizeof before), "%s: something was written", why);
 }
 
 #define REFUSE(spoil) (krs_world_call(&call, &world, (krs_door)door), (void)(spoil), refuse(#spoil))
@@ -198,9 +198,9 @@ static void F10kj_krs_longer_structures_of_models(void) {
     from.distortion = later(6, &world.distortion, sizeof world.distortion);
     make(&made, &from);
     for (int i = 0; i < 4; ++i) CHECK_SAY(made.status[i] == SPT_OK, "%s", made_names[i]);
-    CHECK(memcmp(&right.krs, &made.krs, sizeof made.krs) == 0);
-    CHECK(memcmp(&right.moekrs, &made.moekrs, sizeof made.moekrs) == 0);
-    CHECK(memcmp(&right.conformal, &made.conformal, sizeof made.conformal) == 0);
+    CHECK(krs_same_bytes(&right.krs, &made.krs, sizeof made.krs));
+    CHECK(krs_same_bytes(&right.moekrs, &made.moekrs, sizeof made.moekrs));
+    CHECK(krs_same_bytes(&right.conformal, &made.conformal, sizeof made.conformal));
     CHECK(made.of_conformal.struct_size == sizeof(spt_field));
     CHECK(made.of_distorted.struct_size == sizeof(spt_field));
     free_guards();
