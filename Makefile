@@ -209,6 +209,8 @@ demo: $B/render$(EXE) $B/models$(EXE)
 	$(RUN) $B/models$(EXE) $B/gallery
 	$(RUN) $B/render$(EXE) --gallery $B/gallery
 
+# LARGE= renders the models of nature small.
+LARGE ?= --large
 gallery: $(patsubst %,$B/%$(EXE),render progressive shadow_pass occlusion_pass path_tracer whitted \
                   figures models)
 	$(RUN) $B/render$(EXE) --gallery $B/gallery --large
@@ -219,7 +221,7 @@ gallery: $(patsubst %,$B/%$(EXE),render progressive shadow_pass occlusion_pass p
 	$(RUN) $B/figures$(EXE) $B/gallery
 	$(RUN) $B/path_tracer$(EXE) $B/gallery/path_tracer.png
 	$(RUN) $B/whitted$(EXE) $B/gallery
-	$(RUN) $B/models$(EXE) $B/gallery --large
+	$(RUN) $B/models$(EXE) $B/gallery $(LARGE)
 
 # ---- Tests --------------------------------------------------------------------------------------
 
