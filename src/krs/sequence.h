@@ -36,7 +36,7 @@ typedef struct spti_way {
     float *distance; /* the least so far, of the world */
     /* of maps, for the bound of the distance: */
     float *shrink; /* lengths where the points are now are so many times those of the world, */
-    float *reach;  /* no free ball of the world is larger than one over this, */
+    float *reach;  /* no empty ball of the world is larger than one over this, */
     float *clear;  /* and one of this radius holds nothing of what is still to come */
     /* or for probes: */
     float *radius; /* of the ball where the points are now; below 0: decided */
