@@ -255,6 +255,14 @@ int spti_bound_of_ball(const spti_ball *ball, spt_bound *bound) {
     return spti_bound_copy(bound, &sphere);
 }
 
+int spti_model_is_good(uint32_t levels, const spt_kernel *kernels, const void *between,
+                       float smooth, uint32_t max_lanes) {
+    if (levels > SPT_KRS_LEVELS || kernels == NULL) return 0;
+    if (levels > 0 && between == NULL) return 0;
+    if (!spti_within(smooth, 0.0f, FLT_MAX)) return 0;
+    return max_lanes == 0 || max_lanes == 1 || max_lanes == 4 || max_lanes == 8 || max_lanes == 16;
+}
+
 uint32_t spti_count_fields(const spt_built_kernel *kernels, uint32_t levels) {
     uint32_t count = 0;
     for (uint32_t level = 0; level <= levels; ++level) {

@@ -40,9 +40,4 @@ spt_status spti_locate(const spti_stretch *model, float smooth, int32_t componen
                        const spt_settings *settings, size_t count, const spt_rays *rays,
                        const spt_hits *hits, const spt_krs_places *places);
 
-/* Whether a number of lanes is one that a caller may ask for. */
-static inline int spti_lanes_are_good(uint32_t lanes) {
-    return lanes == 0 || lanes == 1 || lanes == 4 || lanes == 8 || lanes == 16;
-}
-
 #endif

@@ -37,10 +37,9 @@ spt_status spt_moekrs_build(const spt_moekrs_model *model, spt_moekrs *moekrs) {
     spt_moekrs built;
     if (model == NULL || moekrs == NULL) return SPT_BAD_ARGUMENT;
     if (!spti_copy_sized(&copy, model, sizeof copy)) return SPT_BAD_ARGUMENT;
-    if (copy.levels > SPT_KRS_LEVELS || copy.kernels == NULL) return SPT_BAD_ARGUMENT;
-    if (copy.levels > 0 && copy.maps == NULL) return SPT_BAD_ARGUMENT;
-    if (!spti_within(copy.smooth, 0.0f, FLT_MAX)) return SPT_BAD_ARGUMENT;
-    if (!spti_lanes_are_good(copy.max_lanes)) return SPT_BAD_ARGUMENT;
+    if (!spti_model_is_good(copy.levels, copy.kernels, copy.maps, copy.smooth, copy.max_lanes)) {
+        return SPT_BAD_ARGUMENT;
+    }
     memset(&built, 0, sizeof built);
     built.levels = copy.levels;
     built.max_lanes = copy.max_lanes;
@@ -52,8 +51,8 @@ spt_status spt_moekrs_build(const spt_moekrs_model *model, spt_moekrs *moekrs) {
         return SPT_BAD_ARGUMENT;
     }
     if (copy.bound != NULL) {
-        if (!spti_bound_copy(&built.bound, copy.bound)) return SPT_BAD_ARGUMENT;
-        built.bounded = 1;
+        built.bounded = spti_bound_copy(&built.bound, copy.bound);
+        if (!built.bounded) return SPT_BAD_ARGUMENT;
     }
     *moekrs = built;
     return SPT_OK;

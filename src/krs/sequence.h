@@ -112,6 +112,10 @@ void spti_map_whole(const spti_ball *ball, spt_built_map *map);
 /* As a bound, grown by what rounding may have cut; 0 where it has no end or is empty. */
 int spti_bound_of_ball(const spti_ball *ball, spt_bound *bound);
 
+/* Whether what all models are described by is as it should be; between: their mirrors or maps. */
+int spti_model_is_good(uint32_t levels, const spt_kernel *kernels, const void *between,
+                       float smooth, uint32_t max_lanes);
+
 /* How many kernels are fields. */
 uint32_t spti_count_fields(const spt_built_kernel *kernels, uint32_t levels);
 
