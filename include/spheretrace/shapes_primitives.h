@@ -226,12 +226,13 @@ SPT_SHAPE spt_real spt_toroidal_capsule(spt_point p, const spt_arc *arc) {
     const spt_real from_centre = 1 + k * x;
     const spt_real turned = k * y;
     /* sqrt(X^2 + y^2) - R with X = R + x, multiplied out so that R cancels before it is computed */
-    const spt_real over = (x * (k * x + 2) + y * (k * y)) / (spt_length_2(from_centre, turned) + 1);
+    const spt_real below = spt_length_2(from_centre, turned) + 1;
+    const spt_real over = (x * (k * x + 2) + y * (k * y)) / below;
     const spt_real end_x = x + arc->sagitta;
     const spt_real end_y = y - arc->half_chord;
-    /* not where over is infinity by infinity: the ends are then infinitely far, too */
+    /* not where the circle is infinitely far in units of its radius: the ends are as near then */
     const int stands_over =
-        (arc->half_chord * from_centre >= arc->cosine * y) & (spt_magnitude(over) <= SPT_REAL_MAX);
+        (arc->half_chord * from_centre >= arc->cosine * y) & (below <= SPT_REAL_MAX);
     const spt_real plane_squared =
         spt_choose(stands_over, over * over, end_x * end_x + end_y * end_y);
     return spt_root(plane_squared + z * z) - arc->radius;

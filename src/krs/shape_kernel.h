@@ -91,8 +91,8 @@ SPTI_INLINE shape_arc shape_of_arc(const spt_built_kernel *kernel, spt_wide x, s
     const spt_wide below = spt_add(shape_length_2(from_center, turned), one);
     const spt_wide over = spt_div(above, below);
     const spt_wide cosine = shape_number(kernel, SHAPE_COSINE);
-    /* not where over is infinity by infinity: the ends are then infinitely far, too */
-    const spt_mask finite = spt_less_equal(spt_abs(over), spt_splat(FLT_MAX));
+    /* not where the circle is infinitely far in units of its radius: the ends are as near then */
+    const spt_mask finite = spt_less_equal(below, spt_splat(FLT_MAX));
     const spt_mask within = spt_less_equal(spt_mul(cosine, y), spt_mul(half_chord, from_center));
     const shape_arc arc = {over, spt_mask_and(within, finite),
                            spt_add(x, shape_number(kernel, SHAPE_SAGITTA)), spt_sub(y, half_chord)};

@@ -43,7 +43,7 @@ static SPTI_NOINLINE void join_field(const spt_built_kernel *kernel, spti_walk_k
             k -= way->radius[i];
         }
         /* NaN is taken, and stays. */
-        if (!(way->distance[i] <= k)) way->distance[i] = k;
+        if (!isnan(way->distance[i]) && !(way->distance[i] <= k)) way->distance[i] = k;
     }
 }
 

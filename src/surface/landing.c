@@ -30,6 +30,7 @@ int spti_fields_are_good(const spt_field *fields, size_t field_count) {
 void spti_target_of(spti_target *target, const spt_field *fields, size_t index,
                     const spt_settings *settings) {
     spti_field_copy(&target->field, &target->bound, field_at(fields, index));
+    target->inverse_lipschitz = 1.0f / target->field.lipschitz;
     target->size = settings != NULL ? settings->size : 0.0f;
     if (target->field.bound != NULL) {
         const float extent = spti_bound_size(&target->bound);

@@ -15,7 +15,8 @@
 typedef struct spti_target {
     spt_field field;
     spt_bound bound;
-    float size; /* for the rounding floor */
+    float size;              /* for the rounding floor */
+    float inverse_lipschitz; /* as tracing multiplies by it */
 } spti_target;
 
 /* Whether these are fields as a call takes them. */
@@ -100,7 +101,7 @@ static inline float spti_landing_tolerance(const spti_target *target, const spt_
  * within the tolerance. */
 static inline int spti_converged(const spti_target *target, const spt_settings *settings,
                                  const spti_landing *landing, size_t slot, float residual) {
-    const float distance = residual / target->field.lipschitz;
+    const float distance = residual * target->inverse_lipschitz;
     const float tolerance = spti_landing_tolerance(target, settings, landing, slot);
     return distance <= 4.0f * tolerance && distance >= -4.0f * tolerance;
 }

@@ -59,7 +59,7 @@ static int read_hit(const offset_call *call, const spti_landing *landing, size_t
         square += normal * normal;
     }
     state->sign[slot] = sign;
-    state->clearance[slot] = sign * residual / call->target->field.lipschitz;
+    state->clearance[slot] = sign * residual * call->target->inverse_lipschitz;
     state->depth[slot] = 2.0f * tolerance;
     state->best[slot] = 0.0f;
     state->start[slot] = SPT_START_AT_HIT;
@@ -102,7 +102,6 @@ static float next_tolerance(const offset_call *call, const spti_landing *landing
 
 /* Tries one depth for all hits that still look for a place. */
 static void try_depth(const offset_call *call, float depth, spti_landing *landing, offsets *state) {
-    const float lipschitz = call->target->field.lipschitz;
     size_t kept = 0, asked = 0;
     for (size_t i = 0; i < state->open_count; ++i) {
         const size_t slot = state->open[i];
@@ -118,7 +117,8 @@ static void try_depth(const offset_call *call, float depth, spti_landing *landin
         const size_t slot = state->open[i];
         /* Anew: the callback may have used its points. */
         place(state, slot, depth * state->depth[slot], landing, i);
-        const float clearance = state->sign[slot] * landing->distance[i] / lipschitz;
+        const float clearance =
+            state->sign[slot] * landing->distance[i] * call->target->inverse_lipschitz;
         const int clear = clearance > next_tolerance(call, landing, slot, i);
         if (clear || clearance > state->best[slot]) {
             keep(state, slot, landing, i, clear ? SPT_START_CLEAR : SPT_START_NEAR);

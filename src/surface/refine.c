@@ -28,7 +28,7 @@ typedef struct refining {
 static float gap_of(const spti_target *target, const spt_settings *settings,
                     const spti_landing *landing, const refining *state, size_t slot, float t,
                     float residual) {
-    return state->side[slot] * residual / target->field.lipschitz -
+    return state->side[slot] * residual * target->inverse_lipschitz -
            spti_allowance(settings, landing, slot, t);
 }
 
@@ -64,7 +64,7 @@ static void propose(const spti_target *target, const spt_settings *settings, spt
     for (size_t i = 0; i < state->moving_count; ++i) {
         const size_t slot = state->moving[i];
         const float t = landing->t[slot], gap = state->gap[slot];
-        const float most = fabsf(state->residual[slot]) / target->field.lipschitz +
+        const float most = fabsf(state->residual[slot]) * target->inverse_lipschitz +
                            spti_allowance(settings, landing, slot, t);
         const float move = gap < -most ? -most : gap > most ? most : gap;
         float next = t + move / landing->length[slot];

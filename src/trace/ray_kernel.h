@@ -44,10 +44,12 @@ SPTI_INLINE spt_wide ray_closest(spt_wide before, spt_wide after, spt_wide step,
     /* The first sample has none before it, and its step is FLT_MIN. */
     const spt_mask two = spt_less(spt_splat(FLT_MIN), step);
     const spt_mask between = spt_mask_and(two, spt_mask_and(spt_less(zero, y), spt_less(y, step)));
-    const spt_wide near = spt_select(between, y, zero);
-    const spt_wide rest = spt_max(spt_sub(radius, near), zero);
-    *back = near;
-    return spt_select(between, spt_mul(spt_sqrt(rest), spt_sqrt(spt_add(radius, near))), radius);
+    *back = spt_select(between, y, zero);
+    /* sqrt((radius - y) (radius + y)) so that nothing overflows, and that powers of two come out. */
+    const spt_wide less = spt_select(between, spt_max(spt_sub(radius, y), zero), zero);
+    const spt_wide more = spt_select(between, spt_add(radius, y), one);
+    const spt_wide chord = spt_mul(spt_sqrt(spt_div(less, more)), more);
+    return spt_select(between, chord, radius);
 }
 
 #endif

@@ -237,7 +237,57 @@ static void found_phantoms_of_small_models(void) {
     CHECK(trace_one(&field, &ray, 128).outcome == SPT_MISS);
 }
 
+/* A circle so far away in units of its radius that its distance overflowed was at distance 0. */
+static void found_small_arcs_far_away(void) {
+    static const float a[3] = {0, 0, 0}, b[3] = {0.002f, 0, 0}, control[3] = {0.001f, 0.001f, 0};
+    const spt_kernel kernel = spt_kernel_capsule(a, b, control, 1e-4f);
+    const spt_arc arc = spt_arc_of(spt_point_of(0, 0, 0), spt_point_of(0.002f, 0, 0),
+                                   spt_point_of(0.001f, 0.001f, 0), 1e-4f);
+    spt_krs_model model = spt_krs_model_default();
+    spt_krs krs;
+    model.kernels = &kernel;
+    CHECK(spt_krs_build(&model, &krs) == SPT_OK);
+    const spt_field field = spt_krs_field(&krs);
+    for (float y = 1e14f; y < 2e18f; y *= 10) {
+        const float d = field.point(field.user, 0, y, 0);
+        const float shape = spt_toroidal_capsule(spt_point_of(0, y, 0), &arc);
+        CHECK_SAY(fabsf(d - y) <= 1e-6f * y, "%g at %g", (double)d, (double)y);
+        CHECK_SAY(fabsf(shape - y) <= 1e-6f * y, "%g at %g", (double)shape, (double)y);
+    }
+}
+
+static float answers(void *user, float x, float y, float z) {
+    (void)x, (void)y, (void)z;
+    return *(const float *)user;
+}
+
+/* NaN of one caller's field was lost where a later one answered a number. */
+static void found_lost_nan(void) {
+    static float values[2] = {5, NAN};
+    spt_field fields[2];
+    spt_kernel kernels[2];
+    const spt_mirror mirror = {{1, 0, 0}, 0};
+    spt_krs_model model = spt_krs_model_default();
+    spt_krs krs;
+    for (int i = 0; i < 2; ++i) {
+        fields[i] = spt_field_default();
+        fields[i].point = answers;
+        fields[i].user = &values[i];
+        kernels[i] = spt_kernel_field(&fields[i]);
+    }
+    model.levels = 1;
+    model.kernels = kernels;
+    model.mirrors = &mirror;
+    CHECK(spt_krs_build(&model, &krs) == SPT_OK);
+    const spt_field field = spt_krs_field(&krs);
+    CHECK(isnan(field.point(field.user, -1, 0, 0)));
+    values[1] = 7;
+    CHECK(field.point(field.user, -1, 0, 0) <= 5);
+}
+
 void suite_krs_found(void) {
+    RUN(found_small_arcs_far_away);
+    RUN(found_lost_nan);
     RUN(found_binary_without_end);
     RUN(found_probe_of_bad_field);
     RUN(found_misses_without_end);

@@ -112,6 +112,42 @@ static void C2c_scene_times_power_of_two(void) {
     }
 }
 
+static spt_hit passing_hit(const stress_way *way, const stress_case *what) {
+    stress_probe probe;
+    spt_hit hit;
+    const spt_field field = stress_field(way, what, &probe);
+    const spt_settings settings = stress_settings(way, what);
+    const spt_rays rays = spt_rays_of(&what->ray);
+    const spt_hits hits = spt_hits_of(&hit);
+    stress_probe_of(&probe, what, 1);
+    CHECK(spt_trace(&field, &settings, 1, &rays, &hits, NULL) == SPT_OK);
+    return hit;
+}
+
+/* What a ray sees between its samples, as it passes the sphere: a length, or a tangent. */
+static void C2d_passing_times_power_of_two(void) {
+    static const uint32_t flags[] = {SPT_CANDIDATE_CLOSEST, SPT_CANDIDATE_PENUMBRA};
+    for (stress_way way = stress_ways(STRESS_CONVEX); stress_next(&way);) {
+        for (int i = 0; i < 2; ++i) {
+            spt_hit expected;
+            for (int k = 0; k <= 9; ++k) {
+                stress_sphere sphere;
+                stress_case what = scaled_base(&sphere, ldexp(1.0, k));
+                what.settings.flags = flags[i];
+                what.settings.epsilon = stress_scaled(what.settings.epsilon, k);
+                what.ray.origin[0] = stress_scaled(1.3f, k);
+                spt_hit hit = passing_hit(&way, &what);
+                hit.candidate_t = stress_scaled(hit.candidate_t, -k);
+                if (i == 0) hit.candidate_ratio = stress_scaled(hit.candidate_ratio, -k);
+                if (k == 0) expected = hit;
+                CHECK_SAY(stress_same_hit(&hit, &expected), "2^%d: %.9g at %.9g", k,
+                          (double)hit.candidate_ratio, (double)hit.candidate_t);
+            }
+            CHECK(expected.outcome == SPT_MISS && expected.candidate_ratio > 0.01f);
+        }
+    }
+}
+
 /* ---- C3, C4: beyond the squares of the callback -------------------------------------------- */
 
 static void C3_huge_spheres(void) {
@@ -169,6 +205,7 @@ void suite_scale(void) {
     RUN(C1_far_planes);
     RUN(C2_small_scene);
     RUN(C2c_scene_times_power_of_two);
+    RUN(C2d_passing_times_power_of_two);
     RUN(C3_huge_spheres);
     RUN(C4_tiny_spheres);
     RUN(C6_far_spheres);
