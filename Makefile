@@ -106,8 +106,8 @@ define method_object
 $B/src/methods/$(1).o: src/backend/method.c $B/setup
 	@mkdir -p $$(@D)
 	$$(call SAY,$$@)
-	$$(Q)$$(COMPILE) -fPIC $$(HAVE) -DSPTI_METHOD=$(1) -DSPTI_RULE='"../methods/$(1).h"' $$(CFLAGS) \
-	  $$(KEEP) -c $$< -o $$@
+	$$(Q)$$(COMPILE) -fPIC $$(HAVE) -DSPTI_METHOD=$(1) -DSPTI_RULE='"../methods/$(1).h"' \
+	  -DSPTI_RULE_GLSL='"../methods/$(1).glsl.h"' $$(CFLAGS) $$(KEEP) -c $$< -o $$@
 endef
 $(foreach method,$(METHODS),$(eval $(call method_object,$(method))))
 

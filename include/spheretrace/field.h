@@ -74,7 +74,9 @@ typedef struct spt_field {
     const spt_bound *bound;       /* a convex volume that contains the whole surface, or NULL. Rays
                                    * are traced only inside it; coordinates below 1e19 */
     const char *glsl;             /* body of float NAME(vec3 p), the same field for a shader, or
-                                   * NULL. Not read when tracing */
+                                   * NULL. The library's own fields set it to a mark: who replaces
+                                   * their callbacks replaces this, too. Not read when tracing, see
+                                   * glsl.h */
     const char *glsl_prelude;     /* functions which that body needs, or NULL */
     spt_gradient_batch_fn *gradient; /* for normals (surface.h), or NULL: differences of f. Not read
                                       * when tracing */

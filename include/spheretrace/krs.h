@@ -164,6 +164,7 @@ typedef struct spt_built_kernel {
     spt_gradient_batch_fn *gradient;
     void *user;
     float lipschitz;
+    const char *glsl, *glsl_prelude;
 } spt_built_kernel;
 
 /* A model as it is evaluated: about 9 KiB of the caller's, filled by spt_krs_build(), not written
@@ -330,11 +331,14 @@ typedef struct spt_distortion {
     float lipschitz;           /* its Lipschitz constant there, > 0, */
     const spt_bound *bound;    /* and a volume that contains the distorted body, in which that
                                 * constant holds */
+    const char *glsl;          /* the body of vec3 NAME(vec3 p), the same for a shader (glsl.h), or
+                                * NULL, */
+    const char *glsl_prelude;  /* and functions which that needs, or NULL */
 } spt_distortion;
 
 static inline spt_distortion spt_distortion_default(void) {
-    spt_distortion distortion = {0, 0, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 0,
-                                 0, 0, NULL,      NULL,      1,         NULL};
+    spt_distortion distortion = {0, 0,    {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 0,    0,
+                                 0, NULL, NULL,      1,         NULL,      NULL, NULL};
     distortion.struct_size = sizeof distortion;
     return distortion;
 }

@@ -10,6 +10,7 @@
 #include "bound.h"
 #include "field.h"
 #include "frame.h"
+#include "glsl.h"
 #include "krs.h"
 #include "mobius.h"
 #include "scene.h"

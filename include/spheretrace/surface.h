@@ -110,7 +110,7 @@ typedef struct spt_level_set {
  * or, where those are more, within epsilon or the rounding floor of the level set.
  *   field         the field to be seen. Its bound is kept, and must hold the body as deep as the
  *                 level set lies, not only its surface; so are SPT_FIELD_CONVEX and its gradient,
- *                 for the normals of the body itself. GLSL text is not
+ *                 for the normals of the body itself
  *   eye           where all rays begin; path what they have travelled before (0: primary rays), as
  *                 in their spt_rays.path
  *   share         of the half pixel that is undone, in [0, 1]; 0 leaves all as it is. A ball whose

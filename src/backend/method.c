@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
  * The object of one step rule. The Makefile compiles this file once for every rule, with
- * SPTI_METHOD (its name) and SPTI_RULE (its header) defined. An object of its own, so that a static
+ * SPTI_METHOD (its name), SPTI_RULE and SPTI_RULE_GLSL (its headers) defined. An object of its own, so that a static
  * link carries only the rules a program names. */
 #define SPT_LANES 1
 #include SPTI_RULE
+#include SPTI_RULE_GLSL
 
 #include "../trace/method.h"
 
@@ -24,9 +25,12 @@ DECLARE(avx512)
 
 const spt_method *SPTI_JOIN2(spt, SPTI_METHOD)(void) {
     static const spt_method method = {SPTI_TEXT(SPTI_METHOD),
+                                      rule_probes,
                                       rule_pending,
                                       rule_memory,
+                                      rule_blends,
                                       rule_needs_convex,
+                                      &rule_glsl,
                                       {
                                           KERNELS(scalar),
 #ifdef SPTI_HAVE_SSE2

@@ -7,6 +7,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "../base/marks.h"
 #include "../bound/bound_check.h"
 #include "../trace/slot.h"
 #include "locate.h"
@@ -76,6 +77,7 @@ spt_status spt_conformal_field(const spt_field *field, const spt_mobius *map, sp
     *result = spt_field_default();
     result->batch = conformal_distance;
     result->user = memory;
+    result->glsl = spti_mark_conformal;
     result->bound = bounded ? &memory->bound : NULL;
     if (made.kernels[0].gradient != NULL) result->gradient = conformal_gradient;
     return SPT_OK;

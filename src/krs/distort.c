@@ -6,6 +6,7 @@
 
 #include "../base/arguments.h"
 #include "../base/columns.h"
+#include "../base/marks.h"
 #include "../bound/bound_check.h"
 #include "../trace/driver.h"
 #include "distort.h"
@@ -196,6 +197,7 @@ spt_status spt_distorted_field(const spt_field *field, const spt_distortion *dis
         deformed.gradient = mapped ? mapped_gradient : distorted_gradient;
     }
     deformed.user = memory;
+    deformed.glsl = spti_mark_distorted;
     deformed.lipschitz = made.inner.lipschitz * made.distortion.lipschitz;
     if (!spti_within(deformed.lipschitz, 0x1p-100f, 0x1p100f)) return SPT_BAD_ARGUMENT;
     deformed.bound = made.distortion.bound = &memory->bound;

@@ -120,6 +120,8 @@ static int build_field(const spt_kernel *kernel, spt_built_kernel *built, spti_b
     built->gradient = field.gradient;
     built->user = field.user;
     built->lipschitz = field.lipschitz;
+    built->glsl = field.glsl;
+    built->glsl_prelude = field.glsl_prelude;
     ball->radius = (double)INFINITY;
     if (field.bound == NULL) return 1;
     if (bound.kind == SPT_BOUND_SPHERE) {

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "../base/arguments.h"
+#include "../base/marks.h"
 #include "../bound/bound_check.h"
 #include "../trace/driver.h"
 #include "locate.h"
@@ -127,6 +128,7 @@ spt_field spt_krs_field(const spt_krs *krs) {
     field.point = krs_point;
     field.user = (void *)(uintptr_t)krs; /* only read */
     field.bound = krs->bounded ? &krs->bound : NULL;
+    field.glsl = spti_mark_krs;
     field.gradient = spti_have_gradients(krs->kernels, krs->levels) ? krs_gradient : NULL;
     return field;
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "../base/arguments.h"
+#include "../base/marks.h"
 #include "../bound/bound_check.h"
 #include "../trace/driver.h"
 #include "locate.h"
@@ -138,6 +139,7 @@ spt_field spt_moekrs_field(const spt_moekrs *moekrs) {
     field.point = moekrs_point;
     field.user = (void *)(uintptr_t)moekrs; /* only read */
     field.bound = moekrs->bounded ? &moekrs->bound : NULL;
+    field.glsl = spti_mark_moekrs;
     if (spti_have_gradients(moekrs->kernels, moekrs->levels)) field.gradient = moekrs_gradient;
     return field;
 }

@@ -19,7 +19,7 @@ spt_status spti_trace_by(spti_call *call, spti_own_field *own, spti_march_fn *pa
                          size_t count, const spt_rays *rays, const spt_hits *hits,
                          spt_statistics *statistics) {
     spti_march_fn *passes[SPTI_WANTS];
-    spt_method method = {"own", 0, 2, 0, {NULL}};
+    spt_method method = {.name = "own", .memory = 2};
     if (!spti_settings_copy(&call->settings, settings)) return SPT_BAD_ARGUMENT;
     if (call->settings.flags != 0) return SPT_BAD_ARGUMENT;
     if (statistics != NULL && statistics->struct_size < sizeof *statistics) return SPT_BAD_ARGUMENT;

@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "../base/arguments.h"
+#include "../base/marks.h"
 #include "../trace/driver.h"
 
 #include <spheretrace/surface.h>
@@ -69,7 +70,8 @@ spt_status spt_level_set_field(const spt_field *field, const float eye[3], float
     made.user = memory;
     made.lipschitz = set.inner.lipschitz + set.widening;
     made.gradient = set.inner.gradient != NULL ? level_set_gradient : NULL;
-    made.glsl = made.glsl_prelude = NULL;
+    made.glsl = spti_mark_level_set;
+    made.glsl_prelude = NULL;
     if (!spti_within(made.lipschitz, 0x1p-100f, 0x1p100f)) return SPT_BAD_ARGUMENT;
     settings->pixel_radius = copy.pixel_radius / (1.0f + undone);
     *memory = set;

@@ -5,11 +5,13 @@
 #define SPTI_METHOD_H
 
 #include "../backend/isa.h"
+#include "../base/glsl_piece.h"
 #include "chunk.h"
 
 struct spt_method {
     const char *name;
-    unsigned char pending, memory, needs_convex; /* its traits (methods/methods.h) */
+    unsigned char probes, pending, memory, blends, needs_convex; /* its traits (methods.h) */
+    const spti_rule_glsl *glsl;
     spti_march_fn *const *march[SPTI_ISA_COUNT]; /* by instruction set, then by what is wanted */
 };
 

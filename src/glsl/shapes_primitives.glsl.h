@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * shapes_primitives.h as GLSL. Left out: nothing. What C takes a pointer to, here is passed by
+ * value: spt_toroidal_capsule(p, arc). */
+#ifndef SPTI_SHAPES_PRIMITIVES_GLSL_H
+#define SPTI_SHAPES_PRIMITIVES_GLSL_H
+
+#include "../base/glsl_piece.h"
+
+/* All functions of shapes_primitives.h by their names. spt_arc_of() takes about 5000 flop, which
+ * compilers spare where its arguments are constants; else build the arc in C and pass its numbers,
+ * SptArc(vec3(...), ...). Its numbers are those of C but for one in some 500 000, which is off in
+ * the last bit; and where an arc is all but straight and it hardly counts to where it bulges. */
+static const spti_glsl_piece spti_glsl_shapes_primitives[] = {
+    {"spt_sphere", "// Ball around the origin. Exact, L = 1, convex.\n"
+                   "float spt_sphere(vec3 p, float radius) {\n"
+                   "    return spt_length_3(p.x, p.y, p.z) - radius;\n"
+                   "}\n"},
+    {"spt_plane",
+     "// The half-space normal.p <= offset, normal a unit vector. Exact, L = 1, convex.\n"
+     "float spt_plane(vec3 p, vec3 normal, float offset) {\n"
+     "    return spt_dot(normal, p) - offset;\n"
+     "}\n"},
+    {"spt_box", "// Box around the origin, by half its edge lengths. Exact, L = 1, convex.\n"
+                "float spt_box(vec3 p, vec3 half_size) {\n"
+                "    $precise vec3 beyond = abs(p) - half_size;\n"
+                "    float inside = max(beyond.x, max(beyond.y, beyond.z));\n"
+                "    vec3 away = max(beyond, vec3(0.0));\n"
+                "    return spt_length_3(away.x, away.y, away.z) + min(inside, 0.0);\n"
+                "}\n"},
+    {"spt_rounded_box",
+     "// Box with edges and corners rounded off, which half_size includes. Exact, L = 1, convex.\n"
+     "float spt_rounded_box(vec3 p, vec3 half_size, float rounding) {\n"
+     "    return spt_box(p, half_size - rounding) - rounding;\n"
+     "}\n"},
+    {"spt_torus",
+     "// All within minor of the circle of radius major in the plane y = 0. Exact, L = 1.\n"
+     "float spt_torus(vec3 p, float major, float minor) {\n"
+     "    return spt_length_2(spt_length_2(p.x, p.z) - major, p.y) - minor;\n"
+     "}\n"},
+    {"spt_capped_torus",
+     "// All within minor of the arc major (sin s, 0, cos s), |s| <= an angle in [0, pi] that is\n"
+     "// given by its sine and cosine. Exact, L = 1.\n"
+     "float spt_capped_torus(vec3 p, float sine, float cosine, float major, float minor) {\n"
+     "    float x = abs(p.x);\n"
+     "    float ring = spt_length_2(x, p.z) - major;\n"
+     "    $precise float end_x = x - major * sine;\n"
+     "    $precise float end_z = p.z - major * cosine;\n"
+     "    $precise float end_squared = end_x * end_x + end_z * end_z;\n"
+     "    bool beyond = cosine * x > sine * p.z;\n"
+     "    $precise float square = (beyond ? end_squared : ring * ring) + p.y * p.y;\n"
+     "    return sqrt(square) - minor;\n"
+     "}\n"},
+    {"spt_capsule",
+     "// All within radius of the segment from a to b. Exact, L = 1, convex.\n"
+     "float spt_capsule(vec3 p, vec3 a, vec3 b, float radius) {\n"
+     "    vec3 axis = b - a;\n"
+     "    vec3 q = p - a;\n"
+     "    $precise float scale = 1.0 / (spt_dot(axis, axis) + 1.17549435e-38); // finite if a = b\n"
+     "    $precise float h = spt_dot(q, axis) * scale;\n"
+     "    $precise vec3 away = q - axis * min(max(h, 0.0), 1.0);\n"
+     "    return spt_length_3(away.x, away.y, away.z) - radius;\n"
+     "}\n"},
+    {"spt_cylinder",
+     "// Closed cylinder around the y axis, |y| <= half_height. Exact, L = 1, convex.\n"
+     "float spt_cylinder(vec3 p, float half_height, float radius) {\n"
+     "    float x = spt_length_2(p.x, p.z) - radius;\n"
+     "    $precise float y = abs(p.y) - half_height;\n"
+     "    return spt_length_2(max(x, 0.0), max(y, 0.0)) + min(max(x, y), 0.0);\n"
+     "}\n"},
+    {"spt_cone",
+     "// Closed cone: apex at the origin, base at y = -height; sine and cosine of the angle\n"
+     "// between axis and side. Exact, L = 1, convex.\n"
+     "float spt_cone(vec3 p, float height, float sine, float cosine) {\n"
+     "    float r = spt_length_2(p.x, p.z);\n"
+     "    float v = -p.y;\n"
+     "    // distances above the side and below the base: inside, the larger is the answer\n"
+     "    $precise float side = cosine * r - sine * v;\n"
+     "    float base = v - height;\n"
+     "    float inside = max(side, base);\n"
+     "    // nearest points of the side and of the base in the half plane (r, v)\n"
+     "    $precise float foot = sine * r + cosine * v;\n"
+     "    float along = min(max(foot, 0.0), height / cosine);\n"
+     "    $precise float side_r = r - sine * along;\n"
+     "    $precise float side_v = v - cosine * along;\n"
+     "    $precise float past_rim = r - height * sine / cosine;\n"
+     "    float base_r = max(past_rim, 0.0);\n"
+     "    $precise float side_squared = side_r * side_r + side_v * side_v;\n"
+     "    $precise float base_squared = base_r * base_r + base * base;\n"
+     "    return inside > 0.0 ? sqrt(min(side_squared, base_squared)) : inside;\n"
+     "}\n"},
+    {"spt_ellipsoid",
+     "// Ellipsoid by its half axes. A lower bound, L = 1, convex: the largest of (least radius)\n"
+     "// (|p / radii| - 1) (Hart 1996) and the distances to the ball and to the box around it.\n"
+     "float spt_ellipsoid(vec3 p, vec3 radii) {\n"
+     "    float least = min(radii.x, min(radii.y, radii.z));\n"
+     "    float largest = max(radii.x, max(radii.y, radii.z));\n"
+     "    $precise vec3 scaled = p * (1.0 / radii);\n"
+     "    $precise float gauge = least * (spt_length_3(scaled.x, scaled.y, scaled.z) - 1.0);\n"
+     "    return max(gauge, max(spt_sphere(p, largest), spt_box(p, radii)));\n"
+     "}\n"},
+    {"SptArc",
+     "// A circular arc with a thickness, made by spt_arc_of().\n"
+     "struct SptArc {\n"
+     "    vec3 middle;     // of the arc\n"
+     "    vec3 outward;    // unit, from the centre of the circle to the middle\n"
+     "    vec3 along;      // unit, parallel to the chord\n"
+     "    vec3 normal;     // unit, of the arc's plane\n"
+     "    float curvature; // 1 / radius of the circle; 0: straight\n"
+     "    float half_chord;\n"
+     "    float cosine;  // of half the angle under which the arc is seen from the centre\n"
+     "    float sagitta; // height of the arc over its chord\n"
+     "    float radius;  // of the tube\n"
+     "};\n"},
+    {"spt_arc_of",
+     "// The arc from a through control to b, straight where the three are on a line; radius: of\n"
+     "// the tube. About 5000 flop where the arguments are no constants.\n"
+     "SptArc spt_arc_of(vec3 a, vec3 b, vec3 control, float radius) {\n"
+     "    // counted in a power of two near the largest coordinate, so that no square overflows\n"
+     "    vec3 largest = max(abs(control), max(abs(a), abs(b)));\n"
+     "    uint unit = floatBitsToUint(max(largest.x, max(largest.y, largest.z))) & 0x7f800000u;\n"
+     "    float scale = uintBitsToFloat(0x7f000000u - unit);\n"
+     "    SptPair ca = spt_pair_of_sum(a * scale, -control * scale);\n"
+     "    SptPair cb = spt_pair_of_sum(b * scale, -control * scale);\n"
+     "    SptPair chord = spt_pair_of_sum(b * scale, -a * scale);\n"
+     "    SptPair chord_length = spt_pair_root(spt_pair_dot(chord, chord));\n"
+     "    const vec3 zero = vec3(0.0);\n"
+     "    SptPair one = SptPair(vec3(1.0), zero);\n"
+     "    bool none = chord_length.high.x == 0.0;\n"
+     "    SptPair along = SptPair(vec3(1.0, 0.0, 0.0), zero);\n"
+     "    if (!none) along = spt_pair_divide(chord, chord_length);\n"
+     "    // The angle at control sees the chord: half the arc beyond it, so that half the arc\n"
+     "    // through control has the angle pi minus it. Its sine is chord / (2 R).\n"
+     "    SptPair lengths = spt_pair_multiply(spt_pair_root(spt_pair_dot(ca, ca)),\n"
+     "                                        spt_pair_root(spt_pair_dot(cb, cb)));\n"
+     "    SptPair normal = spt_pair_cross(ca, cb);\n"
+     "    SptPair area = spt_pair_root(spt_pair_dot(normal, normal));\n"
+     "    SptPair curvature = SptPair(zero, zero);\n"
+     "    SptPair cosine = one;\n"
+     "    SptPair sagitta = SptPair(zero, zero);\n"
+     "    SptPair outward;\n"
+     "    if (!none && area.high.x > 1e-9 * lengths.high.x) {\n"
+     "        SptPair sine = spt_pair_divide(area, lengths);\n"
+     "        cosine = spt_pair_divide(spt_pair_dot(ca, cb),\n"
+     "                                 SptPair(-lengths.high, -lengths.low));\n"
+     "        curvature = spt_pair_divide(spt_pair_add(sine, sine), chord_length);\n"
+     "        // R (1 - cos), without cancellation for flat arcs\n"
+     "        SptPair sine_squared = spt_pair_multiply(sine, sine);\n"
+     "        SptPair versine = spt_pair_subtract(one, cosine);\n"
+     "        if (cosine.high.x > 0.0) {\n"
+     "            versine = spt_pair_divide(sine_squared, spt_pair_add(one, cosine));\n"
+     "        }\n"
+     "        sagitta = spt_pair_divide(versine, curvature);\n"
+     "        normal = spt_pair_divide(normal, area);\n"
+     "        outward = spt_pair_cross(along, normal);\n"
+     "        // a frame even of what compilers without `precise` leave of a flat arc\n"
+     "        outward = spt_pair_divide(outward, spt_pair_root(spt_pair_dot(outward, outward)));\n"
+     "        normal = spt_pair_cross(outward, along);\n"
+     "        if (spt_pair_dot(outward, ca).high.x > 0.0) {\n"
+     "            outward = SptPair(-outward.high, -outward.low);\n"
+     "        }\n"
+     "    } else {\n"
+     "        // straight: any two directions across\n"
+     "        vec3 u = abs(along.high);\n"
+     "        bool x_least = u.x <= u.y && u.x <= u.z;\n"
+     "        bool y_least = u.y < u.x && u.y <= u.z;\n"
+     "        vec3 axis = x_least ? vec3(1.0, 0.0, 0.0)\n"
+     "                            : y_least ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);\n"
+     "        normal = spt_pair_cross(along, SptPair(axis, zero));\n"
+     "        normal = spt_pair_divide(normal, spt_pair_root(spt_pair_dot(normal, normal)));\n"
+     "        outward = spt_pair_cross(along, normal);\n"
+     "    }\n"
+     "    SptPair middle = spt_pair_add(spt_pair_of_sum(0.5 * (a * scale), 0.5 * (b * scale)),\n"
+     "                                  spt_pair_multiply(sagitta, outward));\n"
+     "    return SptArc(middle.high / scale, outward.high, along.high, normal.high,\n"
+     "                  curvature.high.x * scale, 0.5 * chord_length.high.x / scale,\n"
+     "                  cosine.high.x, sagitta.high.x / scale, radius);\n"
+     "}\n"},
+    {"spt_toroidal_capsule",
+     "// All within the tube's radius of the arc (Szecsi et al. 2016, 9). Exact, L = 1; convex if\n"
+     "// straight. Counted from the middle of the arc and with the curvature, which becomes 0.\n"
+     "float spt_toroidal_capsule(vec3 p, SptArc arc) {\n"
+     "    vec3 q = p - arc.middle;\n"
+     "    float x = spt_dot(q, arc.outward);\n"
+     "    float y = abs(spt_dot(q, arc.along));\n"
+     "    float z = spt_dot(q, arc.normal);\n"
+     "    float k = arc.curvature;\n"
+     "    // In units of the circle's radius and seen from its centre the point is (from_centre,\n"
+     "    // turned); it stands over the arc if its direction is within the half angle.\n"
+     "    $precise float from_centre = 1.0 + k * x;\n"
+     "    float turned = k * y;\n"
+     "    // sqrt(X^2 + y^2) - R with X = R + x, R cancelled before it is computed\n"
+     "    $precise float below = spt_length_2(from_centre, turned) + 1.0;\n"
+     "    $precise float over = (x * (k * x + 2.0) + y * (k * y)) / below;\n"
+     "    float end_x = x + arc.sagitta;\n"
+     "    float end_y = y - arc.half_chord;\n"
+     "    bool stands_over = arc.half_chord * from_centre >= arc.cosine * y\n"
+     "                       && below <= 3.40282347e38;\n"
+     "    $precise float end_squared = end_x * end_x + end_y * end_y;\n"
+     "    $precise float square = (stands_over ? over * over : end_squared) + z * z;\n"
+     "    return sqrt(square) - arc.radius;\n"
+     "}\n"},
+};
+
+#endif
