@@ -20,16 +20,19 @@
  * made of + - * / sqrt abs min max, then t, residual, outcome and evaluations are those of the C
  * library, bit for bit, on an implementation of GLSL that rounds division and square root correctly
  * (Mesa's llvmpipe and lavapipe and SwiftShader do). GLSL allows 2.5 units in the last place for
- * division, and contraction in other targets: there they agree to about 2e-6. Where they differ on
- * purpose:
- *   infinity     has no literal in GLSL: 3.0e38 stands for it (t and residual of a miss). t_max
- *                must be at most 1e18 of world length
+ * division, and contraction in targets without either; there they agree to about 2e-6. Where they
+ * differ on purpose:
+ *   infinity     has no literal in GLSL: 3.0e38 stands for it (t and residual of a miss). Origins
+ *                and t_max count up to 1e18 of world length, and rays without end take other
+ *                numbers of evaluations
  *   scenes       are traced component by component, not in the order of spt_scene_trace(): t,
- *                residual, outcome and component are the same, but evaluations is their sum, and a
- *                budget counts for each component
+ *                residual, outcome and component are the same, but evaluations and fallbacks are
+ *                sums, flags those of all, and a budget counts for each component. The candidate
+ *                is that of the component that is hit, for a miss the least of all
  *   subnormal numbers  may be zero on a GPU, and constants below FLT_MIN are written as 0.0
- *   odd rays and fields  NaN, rays that are bad, and fields that are no distance bounds need
- *                SPT_GLSL_GUARDS: without it such a ray ends somewhere, within its budget
+ *   odd rays and fields  NaN, rays that are bad, fields that are no distance bounds, and directions
+ *                whose length is not from 1e-18 to 1e18, need SPT_GLSL_GUARDS (which spt_trace()
+ *                always has): without it such a ray ends somewhere, within its budget
  *
  * SOURCE of what is written: that of the functions it mirrors, named in the text. */
 #ifndef SPHERETRACE_GLSL_H
@@ -52,13 +55,16 @@ extern "C" {
  * shapes.h by their names, with vec3 for spt_point and float for spt_real:
  *     field.glsl = "return spt_smooth_union(spt_sphere(p, 1.0), spt_box(p, vec3(0.8)), 0.1);"
  * and functions of its own from spt_field.glsl_prelude, which are written before it, once for all
- * fields whose prelude is equal. Names of its own must not begin with spt, Spt, SPT or gl_. For bits
- * equal to the callback's write `SPT_PRECISE float d = ...; return d;` with every sum and product in
- * the callback's order.
+ * fields whose prelude is equal. Names of its own must differ over all preludes, and not begin with
+ * spt, Spt, SPT or gl_. For loops that no compiler is to unroll SPT_ZERO is 0, and spt_time (or
+ * what names calls it) is the time: in Shadertoy iTime, else 0 unless options.uniforms asks for it
+ * (in a library it is then the host's). For bits equal to the callback's write
+ * `SPT_PRECISE float d = ...; return d;` with every sum and product in the callback's order.
  * Refused with SPT_BAD_ARGUMENT: an empty text, one with a byte that is not printable ASCII, a tab
  * or a newline, with # or a backslash or a quote, with brackets or comments that are not closed, or
- * longer than 2^20. What else is wrong with it the compiler of the host tells, with the text's own line numbers
- * (but in libraries): body i is source string 2 i + 1, its prelude 2 i + 2.
+ * brackets nested deeper than 256, or longer than 2^20. What else is wrong with it the compiler of
+ * the host tells, with the text's own line numbers (but in libraries): body i is source string
+ * 2 i + 1, its prelude 2 i + 2.
  * Without text a field is written if it came from spt_krs_field(), spt_moekrs_field(),
  * spt_conformal_field(), spt_distorted_field() or spt_level_set_field(), and its kernels or inner
  * fields can be written; else the answer is SPT_UNSUPPORTED. The number of fields, with inner ones,
@@ -81,10 +87,12 @@ SPT_API spt_status spt_glsl_check_field(const spt_field *field, uint32_t samples
 /* ---- What is written ----------------------------------------------------------------------- */
 
 typedef enum spt_glsl_target {
-    SPT_GLSL_LIBRARY = 0,         /* functions only: no version, main, uniform or global, for hosts
-                                   * that bring these (three.js, engines). Every function stands
-                                   * inside #ifndef and can be replaced, every setting is a #define
-                                   * that can be, too */
+    /* Functions only: no version, main, uniform or global, for hosts that bring these (three.js,
+     * engines), once a shader; several fields are a scene. What others call can be replaced: who
+     * defines SPT_OWN_MAP brings spt_map() before, SPT_OWN_RAY and SPT_OWN_HIT the structures, and
+     * so on for every function. The settings are macros that can be defined before, too; what the
+     * numbers of the options below are to a program, arguments are here. */
+    SPT_GLSL_LIBRARY = 0,
     SPT_GLSL_FRAGMENT_330 = 1,    /* desktop OpenGL 3.3 core */
     SPT_GLSL_FRAGMENT_300_ES = 2, /* WebGL 2, OpenGL ES 3.0 */
     SPT_GLSL_SHADERTOY = 3,       /* mainImage(), with that site's own uniforms */
@@ -103,21 +111,25 @@ typedef enum spt_glsl_target {
  *   HITS     rays in, hits out.
  *   POINTS   points in, distances of the first field out (or of field_number)
  *   CONES    rays of the camera, t out: the low-resolution pass (Bálint & Valasek 2018, section 4).
- *            Each pixel of it answers for the block of the full picture that it covers; a PICTURE or
- *            HITS program with SPT_GLSL_STARTS reads the result and begins its rays there
+ *            Each pixel of it answers for the block of the full picture that it covers; a PICTURE
+ *            or HITS program with SPT_GLSL_STARTS reads the result and begins its rays there
  *
  * WHERE RAYS, POINTS AND HITS ARE, numbers counted from 0 in the order given:
  *   compute, Vulkan  std430 buffers. Binding 0: vec4[], a ray is (origin, t_min), (direction,
  *                    t_max), and with SPT_GLSL_PATH (path, 0, 0, 0); a point is (x, y, z, any).
- *                    Binding 1: vec4[], a hit is (t, residual, evaluations, outcome), and then, each
- *                    only where one of its members was asked for, (component, flags, candidate_t,
- *                    candidate_ratio) and (normal, fallbacks); of a point (distance, 0, 0, 0).
+ *                    Binding 1: vec4[], a hit is (t, residual, evaluations, outcome), and then,
+ *                    each only where one of its members was asked for, (component, flags,
+ *                    candidate_t, candidate_ratio) and (normal, fallbacks); of a point (distance,
+ *                                 0, 0, 0).
  *                    Local size 8x8; ray x + y * size.x for x < size.x, y < size.y. Vulkan: set 0,
- *                    and all uniforms in one push constant block, in the order of spt_glsl_name
+ *                    and one block of push constants: size, budget, and what options.uniforms asks
+ *                    for and the program may use, in the order of spt_glsl_name
  *   fragment         rays and points in textures RGBA32F of the size of the viewport, read by
  *                    texelFetch (ray_origin: (origin, t_min); ray_direction: (direction, t_max);
- *                    ray_path: (path, ...)); hits in as many RGBA32F attachments as above. CONES: a
- *                    texture `starts` of one channel at least (R32F)
+ *                    ray_path: (path, ...)); hits in as many RGBA32F attachments as above
+ *   CONES            as the first number of a vec4, rows of blocks from the bottom in a fragment
+ *                    program, from the top in a buffer; STARTS reads a texture of any format that
+ *                    has it first (R32F), counted as gl_FragCoord or the invocation counts pixels
  * Counts, outcomes, flags and numbers of components are written as floats. */
 typedef enum spt_glsl_program {
     SPT_GLSL_PICTURE = 0,
@@ -128,41 +140,64 @@ typedef enum spt_glsl_program {
 #define SPT_GLSL_PROGRAMS 4
 
 /* What beside t, residual, outcome and evaluations is wanted. What is not asked for leaves nothing
- * behind. In a program the results appear where the comment says; a library gets the function. */
+ * behind. In a program the results appear where the comment above says; a library gets the
+ * function. Which program has which:
+ *   library   all but STARTS and DEPTH_WRITE
+ *   HITS      all but OFFSET, SHADOW, OCCLUSION, DEPTH_WRITE
+ *   PICTURE   all but FALLBACKS, OFFSET, PLACE
+ *   POINTS    ARRAYS, MERGED
+ *   CONES     GUARDS, ARRAYS, MERGED
+ * Others are SPT_UNSUPPORTED, and so are: CONVEX with BINARY; CONVEX, BINARY and PLACE with a
+ * scene; SHADOW with SPT_CANDIDATE_CLOSEST; CONVEX with SPT_CANDIDATE_*; STARTS in Shadertoy and
+ * Vulkan; DEPTH_WRITE with an orthographic camera. BINARY with settings.flags, and CONVEX with
+ * SPT_STOP_INSIDE or without a bound, are SPT_BAD_ARGUMENT, as in the calls that they mirror. */
 enum {
-    SPT_GLSL_GUARDS = 1u << 0,    /* NaN, bad rays, brackets around sign changes: any bits in give
-                                   * what trace.h defines */
-    SPT_GLSL_FLAGS = 1u << 1,     /* SptHit.flags: the Lipschitz audit and starts inside */
-    SPT_GLSL_CANDIDATE = 1u << 2, /* SptHit.candidate_t, candidate_ratio; settings.flags choose
-                                   * which (SPT_CANDIDATE_*) */
-    SPT_GLSL_FALLBACKS = 1u << 3, /* SptHit.fallbacks */
-    SPT_GLSL_COMPONENT = 1u << 4, /* SptHit.component, of a scene; and spt_material(component)
-                                   * where the scene has materials */
-    SPT_GLSL_PATH = 1u << 5,      /* SptRay.path */
-    SPT_GLSL_NORMAL = 1u << 6,    /* spt_hit_normal(ray, hit, detail); HITS. PICTURE has it by
-                                    * itself */
-    SPT_GLSL_REFINE = 1u << 7,    /* spt_refine(): discontinuity reduction of each hit */
-    SPT_GLSL_OFFSET = 1u << 8, /* spt_offset(), spt_offset_checked(): dynamic epsilon for secondary
-                                   * rays. Library; PICTURE with SPT_GLSL_SHADOW has it by itself */
-    SPT_GLSL_SHADOW = 1u << 9, /* spt_soft_shadow(). PICTURE, library */
-    SPT_GLSL_OCCLUSION = 1u << 10, /* spt_ambient_occlusion(). PICTURE, library */
-    SPT_GLSL_CONVEX = 1u << 11, /* spt_trace_convex() in the place of spt_trace(), of one field with
- * a bound. Rays that are not turned back ask f at their start once more than is counted */
-    SPT_GLSL_BINARY = 1u << 12, /* spt_binary_trace() in the place of spt_trace(), of one field,
-                                   * by probes (of a MöKRS model its own; else f / lipschitz) */
-    SPT_GLSL_STARTS =
-        1u << 13, /* rays begin where a pass of CONES ended. With a pixel cone the bits
-                                   * are then no longer those of rays from t_min */
-    SPT_GLSL_DEPTH_WRITE = 1u << 14, /* PICTURE: gl_FragDepth, and misses are discarded, so that
-                                      * triangles and fields are one picture */
-    SPT_GLSL_ARRAYS = 1u << 15, /* constants of kernel-reflection sequences in arrays and a loop;
-                                   * otherwise unrolled, and each kernel only what it needs */
-    SPT_GLSL_MERGED = 1u << 16, /* a scene as one field, the least of all over their Lipschitz
-                                   * constants: one march, with the component of the least. Bounds
-                                   * are not used: fields must answer everywhere. For
-                                   * implementations that run both sides of every branch */
-    SPT_GLSL_PLACE = 1u << 17   /* of one KRS or MöKRS model: int spt_kernel_at(vec3 p), the number
-                                   * of the nearest kernel, which HITS gives as component */
+    /* NaN, bad rays, brackets around sign changes, directions of any length: what trace.h says of
+     * them, within the ranges above. With SPT_GLSL_CONVEX, _BINARY and _REFINE directions from 1e-18
+     * to 1e18 long. */
+    SPT_GLSL_GUARDS = 1u << 0,
+    /* SptHit.flags: the Lipschitz audit, and starts inside. */
+    SPT_GLSL_FLAGS = 1u << 1,
+    /* SptHit.candidate_t and candidate_ratio; settings.flags choose which (SPT_CANDIDATE_*). */
+    SPT_GLSL_CANDIDATE = 1u << 2,
+    /* SptHit.fallbacks. */
+    SPT_GLSL_FALLBACKS = 1u << 3,
+    /* SptHit.component, of a scene; and spt_material(component) where the scene has materials. */
+    SPT_GLSL_COMPONENT = 1u << 4,
+    /* SptRay.path. */
+    SPT_GLSL_PATH = 1u << 5,
+    /* spt_hit_normal(ray, hit, detail), detail as in spt_normals(). A PICTURE has it by itself. */
+    SPT_GLSL_NORMAL = 1u << 6,
+    /* spt_refine(ray, hit, iterations): discontinuity reduction, of each hit; of rays that began
+     * inside only together with SPT_GLSL_FLAGS. */
+    SPT_GLSL_REFINE = 1u << 7,
+    /* spt_offset(), spt_offset_checked(): dynamic epsilon for secondary rays. */
+    SPT_GLSL_OFFSET = 1u << 8,
+    /* spt_soft_shadow(). In a PICTURE by plain steps, whatever the rule. */
+    SPT_GLSL_SHADOW = 1u << 9,
+    /* spt_ambient_occlusion(). */
+    SPT_GLSL_OCCLUSION = 1u << 10,
+    /* spt_trace_convex() in the place of spt_trace(), of one field with a bound. Rays that are not
+     * turned back ask f at their start once more than is counted. */
+    SPT_GLSL_CONVEX = 1u << 11,
+    /* spt_binary_trace() in the place of spt_trace(), of one field, by probes: of a MöKRS model its
+     * own, else f / lipschitz. */
+    SPT_GLSL_BINARY = 1u << 12,
+    /* Rays begin where a pass of CONES ended. With a pixel cone the bits are then no longer those
+     * of rays from t_min. */
+    SPT_GLSL_STARTS = 1u << 13,
+    /* gl_FragDepth, and misses are discarded, so that triangles and fields are one picture. */
+    SPT_GLSL_DEPTH_WRITE = 1u << 14,
+    /* Constants of kernel-reflection sequences in arrays and a loop: shorter texts. Otherwise
+     * unrolled, each kernel only what it needs (26 to 36 times as fast on llvmpipe). */
+    SPT_GLSL_ARRAYS = 1u << 15,
+    /* A scene as one field, the least of all over their Lipschitz constants, of which residual is
+     * the value: one march, with the component of the least. Bounds are not used: texts must answer
+     * everywhere. For implementations that run both sides of every branch. */
+    SPT_GLSL_MERGED = 1u << 16,
+    /* int spt_kernel_at(vec3 p) of a KRS or MöKRS model, the number of the nearest kernel, which
+     * HITS gives as component. */
+    SPT_GLSL_PLACE = 1u << 17
 };
 
 /* Parameters that may become uniforms, the bits of spt_glsl_options.uniforms; the others are
@@ -238,9 +273,10 @@ static inline spt_glsl_options spt_glsl_options_default(void) {
     return options;
 }
 
-/* The numbers for SPT_GLSL_DEPTH_WRITE: coefficients[0] + coefficients[1] / z is what a depth buffer
- * (frame.h; of kind SPT_DEPTH_DEVICE, or of SPT_DEPTH_DEVICE_GL with the default glDepthRange, which
- * are then the same) holds in [0, 1] at depth z along forward, of a pinhole camera. near_plane or
+/* The numbers for SPT_GLSL_DEPTH_WRITE: coefficients[0] + coefficients[1] / z is what a depth
+ * buffer (frame.h; of kind SPT_DEPTH_DEVICE, or of SPT_DEPTH_DEVICE_GL with the default
+ * glDepthRange, which are then the same) holds in [0, 1] at depth z along forward, of a pinhole
+ *               camera. near_plane or
  * far_plane may be +infinity, near_plane > far_plane is a reversed buffer. Returns SPT_BAD_ARGUMENT
  * for planes that are not positive or are equal, or a NULL pointer. */
 SPT_API spt_status spt_glsl_depth(float near_plane, float far_plane, float coefficients[2]);
@@ -257,7 +293,8 @@ SPT_API spt_status spt_glsl_depth(float near_plane, float far_plane, float coeff
  * is excluded above; settings.flags of SPT_CHECK_CONVEX. SPT_UNSUPPORTED also for fields that
  * cannot be written, bounds by callback, cameras of the caller's rays, and t_max of the camera
  * beyond 1e18 (0 < t_max = +infinity becomes 1e18).
- * Cost: the text is made twice, about 10 us for a KiB of it. No memory is allocated. */
+ * Cost: the text is made twice, about 25 us for a KiB of it; 40 KiB of stack. No memory is
+ * allocated, and a text is read as far as its zero. */
 SPT_API spt_status spt_glsl_emit(const spt_glsl_options *options, char *buffer, size_t capacity,
                                  size_t *length);
 

@@ -24,7 +24,7 @@ static const spti_glsl_piece spti_glsl_bound[] = {
                   "    $precise float moved = t * (t < 0.0 ? 0.999999762 : 1.00000024);\n"
                   "    return moved;\n"
                   "}\n"},
-    {"spt_interval_dot", "// In the order of volume_dot().\n"
+    {"spt_interval_dot", "// a.b, the products added from left to right.\n"
                          "float spt_interval_dot(vec3 a, vec3 b) {\n"
                          "    $precise float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;\n"
                          "    return sum;\n"
@@ -208,7 +208,7 @@ static const spti_glsl_piece spti_glsl_bound[] = {
 
     /* ---- For cones ---------------------------------------------------------------------- */
     {"spt_hull_sphere",
-     "// The point itself, or if it is outside the sphere the nearest one there (cone_kernel.h).\n"
+     "// The point itself, or if it is outside the sphere the nearest one there.\n"
      "vec3 spt_hull_sphere(vec3 p, vec3 center, float radius) {\n"
      "    $precise vec3 arm = p - center;\n"
      "    $precise float apart = sqrt(spt_interval_dot(arm, arm));\n"

@@ -68,7 +68,8 @@ static spt_status check_program(const spt_glsl_options *options) {
     const uint32_t target = options->target, program = options->program;
     const uint32_t features = options->features;
     const int compute = target >= SPT_GLSL_COMPUTE_310_ES;
-    if (target >= SPT_GLSL_TARGETS || program >= SPT_GLSL_PROGRAMS) return SPT_BAD_ARGUMENT;
+    if (target >= SPT_GLSL_TARGETS) return SPT_BAD_ARGUMENT;
+    if (target != SPT_GLSL_LIBRARY && program >= SPT_GLSL_PROGRAMS) return SPT_BAD_ARGUMENT;
     if ((features & ~(uint32_t)FEATURES) || (options->uniforms & ~(uint32_t)UNIFORMS)) {
         return SPT_BAD_ARGUMENT;
     }
@@ -91,6 +92,10 @@ static spt_status check_settings(const emission *e) {
     if ((features & SPT_GLSL_BINARY) && flags != 0) return SPT_BAD_ARGUMENT;
     if ((features & SPT_GLSL_CONVEX) && (flags & SPT_STOP_INSIDE)) return SPT_BAD_ARGUMENT;
     if ((features & SPT_GLSL_SHADOW) && (flags & SPT_CANDIDATE_CLOSEST)) return SPT_UNSUPPORTED;
+    if ((features & SPT_GLSL_CONVEX) &&
+        (flags & (SPT_CANDIDATE_PENUMBRA | SPT_CANDIDATE_CLOSEST))) {
+        return SPT_UNSUPPORTED;
+    }
     return SPT_OK;
 }
 

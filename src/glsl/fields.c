@@ -30,6 +30,7 @@ void spti_glsl_prelude(spti_glsl *out, const char *prelude) {
     }
     out->prelude[out->preludes++] = prelude;
     put_text(out, prelude, 2 * out->texts + 2);
+    if (out->fields == 0) spti_glsl_put(out, "\n"); /* else the next field's does it */
 }
 
 void spti_glsl_body(spti_glsl *out, const char *head, const char *body) {
@@ -48,6 +49,7 @@ int spti_glsl_next_field(spti_glsl *out) {
         spti_glsl_stop(out, SPT_BAD_ARGUMENT);
         return 0;
     }
+    if (out->fields > 0) spti_glsl_put(out, "\n");
     return (int)out->fields++;
 }
 

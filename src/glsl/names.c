@@ -4,7 +4,7 @@
 #include "../base/arguments.h"
 #include "parameters.h"
 
-enum { LONGEST_NAME = 64, LONGEST_TEXT = 1 << 20, DEEPEST_BRACKETS = 64 };
+enum { LONGEST_NAME = 64, LONGEST_TEXT = 1 << 20, DEEPEST_BRACKETS = 256 };
 
 /* Words that some version of GLSL keeps for itself or has a function of (3.30, 4.50 with Vulkan, 3.00
  * to 3.20 es), and those of Shadertoy. */
@@ -94,7 +94,7 @@ static int name_is_good(const char *name, const char *own) {
         if (c == '_' && length > 0 && name[length - 1] == '_') return 0;
     }
     if (length == 0 || length > LONGEST_NAME) return 0;
-    return !begins_with(name, "spt") && !begins_with(name, "Spt") && !begins_with(name, "SPT") &&
+    return !begins_with(name, "spt_") && !begins_with(name, "Spt") && !begins_with(name, "SPT") &&
            !begins_with(name, "gl_") && !begins_with(name, "GL_") && !is_reserved(name, length);
 }
 

@@ -31,7 +31,7 @@ static const parameter parameters[SPT_GLSL_NAMES] = {
     {"spt_light_tangent", "float", "SPT_LIGHT_TANGENT"},
     {"spt_occlusion", "float", "SPT_OCCLUSION"},
     {"spt_depth", "vec2", NULL},
-    {"spt_time", "float", "SPT_TIME"},
+    {"spt_time", "float", NULL},
     {"spt_view", "int", NULL},
     {"spt_ray_origin", "sampler2D", NULL},
     {"spt_ray_direction", "sampler2D", NULL},
@@ -177,7 +177,20 @@ const char *spti_glsl_precise(const spti_glsl *out) {
     }
 }
 
-/* The words of piece.h that are no parameters. Returns 0 where it is none of them. */
+/* Whether all components have the same constant, which then stands for all. */
+static int are_equal(const spti_glsl *out, int of_size) {
+    int equal = 1;
+    for (uint32_t i = 1; i < out->component_count; ++i) {
+        const spti_glsl_component *const a = &out->components[0], *const b = a + i;
+        equal = equal && !(of_size ? a->floor_of_size < b->floor_of_size ||
+                                         a->floor_of_size > b->floor_of_size
+                                   : a->inverse_lipschitz < b->inverse_lipschitz ||
+                                         a->inverse_lipschitz > b->inverse_lipschitz);
+    }
+    return equal;
+}
+
+/* The words of glsl_piece.h that are no parameters. Returns 0 where it is none of them. */
 static int put_word(spti_glsl *out, const char *word, size_t length) {
     const spt_glsl_options *const options = out->options;
     const int many = spti_glsl_has(out, SPTI_GLSL_BIT(many));
@@ -227,7 +240,7 @@ static int put_word(spti_glsl *out, const char *word, size_t length) {
         return 1;
     }
     if (length != 1 || (word[0] != 'L' && word[0] != 'S')) return 0;
-    if (many) {
+    if (many && !are_equal(out, word[0] == 'S')) {
         spti_glsl_put(out, word[0] == 'L' ? "spt_inverse_lipschitz(component)"
                                           : "spt_floor_of_size(component)");
     } else {
@@ -248,7 +261,9 @@ void spti_glsl_parameter(spti_glsl *out, const char *word, size_t length) {
 
 void spti_glsl_use_name(spti_glsl *out, const char *word, int own) {
     for (uint32_t i = 0; i < SPT_GLSL_NAMES; ++i) {
-        if (!(out->uniforms >> i & 1) || strcmp(out->names[i], word) != 0) continue;
+        /* Callers' texts may ask for the time whatever it is in this target. */
+        if (!(out->uniforms >> i & 1) && i != SPT_GLSL_NAME_TIME) continue;
+        if (strcmp(out->names[i], word) != 0) continue;
         if (own)
             out->clashes |= 1u << i;
         else
@@ -267,7 +282,48 @@ static void declare_macros(spti_glsl *out) {
     }
 }
 
-/* Vulkan has no single uniforms. */
+/* The time of callers' texts, where it is no uniform. */
+static void declare_time(spti_glsl *out) {
+    const uint32_t bit = 1u << SPT_GLSL_NAME_TIME;
+    const char *const name = out->names[SPT_GLSL_NAME_TIME];
+    if (!(out->used & bit) || (out->uniforms & bit)) return;
+    if (out->options->target == SPT_GLSL_LIBRARY) {
+        if (out->options->uniforms & bit) return; /* the host has it */
+        spti_glsl_format(out, "#ifndef %s\n#define %s 0.0\n#endif\n", name, name);
+    } else if (out->options->target == SPT_GLSL_SHADERTOY) {
+        spti_glsl_format(out, "#define %s iTime\n", name);
+    } else {
+        spti_glsl_format(out, "const float %s = 0.0;\n", name);
+    }
+}
+
+enum {
+    SAMPLERS = 1 << SPT_GLSL_NAME_RAY_ORIGIN | 1 << SPT_GLSL_NAME_RAY_DIRECTION |
+               1 << SPT_GLSL_NAME_RAY_PATH | 1 << SPT_GLSL_NAME_STARTS,
+    CAMERA = 1 << SPT_GLSL_NAME_EYE | 1 << SPT_GLSL_NAME_RIGHT | 1 << SPT_GLSL_NAME_UP |
+             1 << SPT_GLSL_NAME_FORWARD | 1 << SPT_GLSL_NAME_WINDOW | 1 << SPT_GLSL_NAME_RANGE,
+    RULE = 1 << SPT_GLSL_NAME_RELAXATION | 1 << SPT_GLSL_NAME_EXTRAPOLATION |
+           1 << SPT_GLSL_NAME_SLOPE_BLEND | 1 << SPT_GLSL_NAME_STEP_CAP,
+    PICTURE = 1 << SPT_GLSL_NAME_LIGHT | 1 << SPT_GLSL_NAME_LIGHT_TANGENT |
+              1 << SPT_GLSL_NAME_OCCLUSION | 1 << SPT_GLSL_NAME_DEPTH | 1 << SPT_GLSL_NAME_VIEW
+};
+
+/* What a program may make use of; the least that implementations have room for is 128 bytes. */
+static uint32_t parameters_of_program(const spti_glsl *out) {
+    const uint32_t all = (1u << SPT_GLSL_NAMES) - 1;
+    switch (out->options->program) {
+    case SPT_GLSL_HITS:
+    case SPT_GLSL_POINTS:
+        return all & ~(uint32_t)(CAMERA | PICTURE);
+    case SPT_GLSL_CONES:
+        return all & ~(uint32_t)(PICTURE | RULE);
+    default:
+        return all;
+    }
+}
+
+/* Vulkan has no single uniforms. All that was asked for is there, so that where a member is does not
+ * depend on what a step rule or a text uses. */
 static void declare_block(spti_glsl *out, uint32_t declared) {
     spti_glsl_put(out, "layout(push_constant) uniform SptParameters {\n");
     for (uint32_t i = 0; i < SPT_GLSL_NAMES; ++i) {
@@ -281,12 +337,13 @@ void spti_glsl_declare(spti_glsl *out) {
     const uint32_t declared = out->used & out->uniforms;
     if (out->options->target == SPT_GLSL_LIBRARY) {
         declare_macros(out);
-    } else if (out->options->target == SPT_GLSL_VULKAN_450 && declared != 0) {
-        declare_block(out, declared);
+    } else if (out->options->target == SPT_GLSL_VULKAN_450) {
+        declare_block(out, out->uniforms & ~(uint32_t)SAMPLERS & parameters_of_program(out));
     } else {
         for (uint32_t i = 0; i < SPT_GLSL_NAMES; ++i) {
             if (!(declared >> i & 1)) continue;
             spti_glsl_format(out, "uniform %s %s;\n", parameters[i].type, out->names[i]);
         }
     }
+    declare_time(out);
 }

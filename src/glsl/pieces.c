@@ -29,29 +29,30 @@
 typedef struct written_piece {
     const char *name;
     spti_glsl_write_fn *write;
-    int one; /* only where there is one component: with several, another piece brings it */
+    int one;     /* only where there is one component: with several, another piece brings it */
+    int several; /* it writes several functions */
 } written_piece;
 
 static const written_piece fields[] = {
-    {"spt_map", spti_glsl_write_map, 0},
-    {"spt_scene_distance", spti_glsl_write_nearest, 0},
-    {"spt_component_at", spti_glsl_write_component_at, 0},
-    {"spt_inverse_lipschitz", spti_glsl_write_inverse_lipschitz, 0},
-    {"spt_floor_of_size", spti_glsl_write_floor_of_size, 0},
-    {"spt_detail", spti_glsl_write_detail, 0},
-    {"spt_material", spti_glsl_write_material, 0},
-    {"spt_clip_0", spti_glsl_write_clip_0, 1},
-    {"spt_clip", spti_glsl_write_clip, 0},
-    {"spt_hull_0", spti_glsl_write_hull_0, 1},
-    {"spt_hull", spti_glsl_write_hull, 0},
-    {"spt_probe", spti_glsl_write_probe, 0},
-    {"spt_kernel_at", spti_glsl_write_place, 0},
+    {"spt_map", spti_glsl_write_map, 0, 1},
+    {"spt_scene_distance", spti_glsl_write_nearest, 0, 0},
+    {"spt_component_at", spti_glsl_write_component_at, 0, 0},
+    {"spt_inverse_lipschitz", spti_glsl_write_inverse_lipschitz, 0, 0},
+    {"spt_floor_of_size", spti_glsl_write_floor_of_size, 0, 0},
+    {"spt_detail", spti_glsl_write_detail, 0, 0},
+    {"spt_material", spti_glsl_write_material, 0, 0},
+    {"spt_clip_0", spti_glsl_write_clip_0, 1, 0},
+    {"spt_clip", spti_glsl_write_clip, 0, 1},
+    {"spt_hull_0", spti_glsl_write_hull_0, 1, 0},
+    {"spt_hull", spti_glsl_write_hull, 0, 0},
+    {"spt_probe", spti_glsl_write_probe, 0, 0},
+    {"spt_kernel_at", spti_glsl_write_place, 0, 0},
 };
 
 static const written_piece traces[] = {
-    {"spt_trace", spti_glsl_write_trace, 0},
-    {"spt_trace_shadow", spti_glsl_write_trace_shadow, 0},
-    {"spt_trace_back", spti_glsl_write_trace_back, 0},
+    {"spt_trace", spti_glsl_write_trace, 0, 1},
+    {"spt_trace_shadow", spti_glsl_write_trace_shadow, 0, 1},
+    {"spt_trace_back", spti_glsl_write_trace_back, 0, 0},
 };
 
 /* A room's pieces: texts, or what is written by code. */
@@ -121,30 +122,39 @@ void spti_glsl_reach(spti_glsl *out, const char *word) {
     }
 }
 
-/* In a library each function can be replaced by the host's. */
-static void begin_guard(spti_glsl *out, const char *name) {
-    if (out->options->target != SPT_GLSL_LIBRARY || strncmp(name, "spt_", 4) != 0) return;
+static int is_guarded(const spti_glsl *out, const char *name) {
+    if (out->options->target != SPT_GLSL_LIBRARY) return 0;
+    return strncmp(name, "spt_", 4) == 0 || strncmp(name, "Spt", 3) == 0;
+}
+
+/* SPT_OWN_TRACE of spt_trace, SPT_OWN_RAY of SptRay. */
+void spti_glsl_begin_guard(spti_glsl *out, const char *name) {
+    if (!is_guarded(out, name)) return;
     spti_glsl_put(out, "#ifndef SPT_OWN_");
-    for (const char *c = name + 4; *c != '\0'; ++c) {
+    for (const char *c = name + (name[0] == 's' ? 4 : 3); *c != '\0'; ++c) {
         const char upper = (char)(*c >= 'a' && *c <= 'z' ? *c - 'a' + 'A' : *c);
         spti_glsl_put_bytes(out, &upper, 1);
     }
     spti_glsl_put(out, "\n");
 }
 
-static void end_guard(spti_glsl *out, const char *name) {
-    if (out->options->target != SPT_GLSL_LIBRARY || strncmp(name, "spt_", 4) != 0) return;
-    spti_glsl_put(out, "#endif\n");
+void spti_glsl_end_guard(spti_glsl *out, const char *name) {
+    if (is_guarded(out, name)) spti_glsl_put(out, "#endif\n");
 }
 
 static void write_piece(spti_glsl *out, const room *in, uint32_t i) {
-    begin_guard(out, name_of(in, i));
+    const char *const name = name_of(in, i);
+    if (in->written != NULL && in->written[i].several) {
+        in->written[i].write(out);
+        return;
+    }
+    spti_glsl_begin_guard(out, name);
     if (in->pieces != NULL) {
         spti_glsl_expand(out, in->pieces[i].text, NULL);
     } else {
         in->written[i].write(out);
     }
-    end_guard(out, name_of(in, i));
+    spti_glsl_end_guard(out, name);
 }
 
 void spti_glsl_reach_all(spti_glsl *out) {

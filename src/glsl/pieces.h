@@ -15,4 +15,9 @@ void spti_glsl_reach_all(spti_glsl *out);
 /* Writes all pieces that are reached. */
 void spti_glsl_write_pieces(spti_glsl *out);
 
+/* What a library's host can replace stands between these. Pieces have them, but those of several
+ * functions, which have them around what others call. */
+void spti_glsl_begin_guard(spti_glsl *out, const char *name);
+void spti_glsl_end_guard(spti_glsl *out, const char *name);
+
 #endif

@@ -66,11 +66,12 @@ static void write_outputs(spti_glsl *out) {
     static const char *const names[] = {"spt_out_0", "spt_out_1", "spt_out_2"};
     const int colour = out->options->program == SPT_GLSL_PICTURE;
     if (out->options->program == SPT_GLSL_CONES) {
-        spti_glsl_put(out, "layout(location = 0) invariant out vec4 spt_out_0;\n");
+        spti_glsl_put(out, "layout(location = 0) out vec4 spt_out_0;\ninvariant spt_out_0;\n");
         return;
     }
     for (int i = 0; i < (colour ? 1 : words_of_hit(out)); ++i) {
-        spti_glsl_format(out, "layout(location = %d) invariant out vec4 %s;\n", i, names[i]);
+        spti_glsl_format(out, "layout(location = %d) out vec4 %s;\ninvariant %s;\n", i, names[i],
+                         names[i]);
     }
 }
 
@@ -220,7 +221,7 @@ static const char picture[] =
     "[starts]    ray.t_min = max(ray.t_min, spt_start(ivec2($0)));\n"
     "    SptHit hit = $trace(ray, $budget);\n"
     "[refine]    spt_refine(ray, hit, $iterations);\n"
-    "[depth]    if (hit.outcome != $hit) discard;\n"
+    "[depth]    if (hit.t > 1.0e38) discard; // a miss\n"
     "[depth]    vec2 coefficients = $depth;\n"
     "[depth]    float z = hit.t * dot(ray.direction, $forward);\n"
     "[depth]    gl_FragDepth = coefficients.x + coefficients.y / z;\n"

@@ -3,6 +3,7 @@
  * The fields of a scene as functions, and what else is known of its components. */
 #include "../base/arguments.h"
 #include "../bound/bound_check.h"
+#include "pieces.h"
 #include "write.h"
 #include "write_krs.h"
 
@@ -23,15 +24,19 @@ static void write_choice(spti_glsl *out) {
     spti_glsl_put(out, "    return f;\n}\n");
 }
 
+/* With guards NaN is the answer, whichever field it comes from: min() may lose it. */
 static void write_least(spti_glsl *out, const char *head) {
-    spti_glsl_format(out, "%s {\n", head);
+    spti_glsl_format(out, "%s {\n    float least = 3.0e38;\n", head);
     for (uint32_t i = 0; i < out->component_count; ++i) {
         const float factor = out->components[i].inverse_lipschitz;
-        if (i == 0) spti_glsl_expand(out, "    $precise float least = ", NULL);
-        spti_glsl_format(out, i == 0 ? "spt_field_%d(p)" : "    least = min(least, spt_field_%d(p)",
+        spti_glsl_format(out, i == 0 ? "    float f = spt_field_%d(p)" : "    f = spt_field_%d(p)",
                          out->number_of[i]);
         if (factor < 1.0f || factor > 1.0f) spti_glsl_format(out, " * %f", (double)factor);
-        spti_glsl_put(out, i == 0 ? ";\n" : ");\n");
+        spti_glsl_put(out, ";\n");
+        spti_glsl_expand(out,
+                         "[guards]    if (!spt_is_number(f)) return f;\n"
+                         "    least = min(least, f);\n",
+                         NULL);
     }
     spti_glsl_put(out, "    return least;\n}\n");
 }
@@ -43,12 +48,16 @@ void spti_glsl_write_map(spti_glsl *out) {
     if (!many && !merged && is_callers(&components[0].field)) {
         spti_glsl_prelude(out, components[0].field.glsl_prelude);
         spti_glsl_next_field(out);
+        spti_glsl_begin_guard(out, "spt_map");
         spti_glsl_body(out, "float spt_map(vec3 p)", components[0].field.glsl);
+        spti_glsl_end_guard(out, "spt_map");
         return;
     }
     for (uint32_t i = 0; i < out->component_count && out->status == SPT_OK; ++i) {
         out->number_of[i] = spti_glsl_field(out, &components[i].field);
     }
+    spti_glsl_put(out, "\n");
+    spti_glsl_begin_guard(out, "spt_map");
     if (merged) {
         spti_glsl_put(
             out, "// The union as one field: the least of all over their Lipschitz constants.\n");
@@ -59,6 +68,7 @@ void spti_glsl_write_map(spti_glsl *out) {
         spti_glsl_format(out, "float spt_map(vec3 p) {\n    return spt_field_%d(p);\n}\n",
                          out->number_of[0]);
     }
+    spti_glsl_end_guard(out, "spt_map");
 }
 
 void spti_glsl_write_nearest(spti_glsl *out) {
@@ -75,7 +85,7 @@ void spti_glsl_write_nearest(spti_glsl *out) {
     write_least(out, "float spt_scene_distance(vec3 p)");
 }
 
-/* The arg-min of the union; never from a place, since hits lie above the surface. */
+/* The arg-min of the union; no threshold on the place, since hits lie above the surface. */
 void spti_glsl_write_component_at(spti_glsl *out) {
     spti_glsl_put(out, "// The component that is nearest; of equals the first.\n"
                        "int spt_component_at(vec3 p) {\n"
@@ -161,7 +171,11 @@ static void write_bound(spti_glsl *out, uint32_t i, bound_fn *write) {
 }
 
 static void write_bounds(spti_glsl *out, bound_fn *write) {
-    for (uint32_t i = 0; i < out->component_count; ++i) write_bound(out, i, write);
+    for (uint32_t i = 0; i < out->component_count; ++i) {
+        if (out->components[i].field.bound == NULL) continue;
+        write_bound(out, i, write);
+        spti_glsl_put(out, "\n");
+    }
 }
 
 static void choose_bound(spti_glsl *out, const char *call) {
@@ -178,10 +192,12 @@ void spti_glsl_write_clip_0(spti_glsl *out) {
 
 void spti_glsl_write_clip(spti_glsl *out) {
     write_bounds(out, spti_glsl_clip);
+    spti_glsl_begin_guard(out, "spt_clip");
     spti_glsl_put(out, "vec2 spt_clip(int component, vec3 origin, vec3 direction, float span, "
                        "float reach,\n              vec2 range) {\n");
     choose_bound(out, "range = spt_clip_%d(origin, direction, span, reach, range);\n");
     spti_glsl_put(out, "    return range;\n}\n");
+    spti_glsl_end_guard(out, "spt_clip");
 }
 
 void spti_glsl_write_hull_0(spti_glsl *out) {

@@ -6,6 +6,7 @@
 #include "../trace/method.h"
 #include "../surface/reverse.glsl.h"
 #include "../trace/trace.glsl.h"
+#include "pieces.h"
 #include "write.h"
 
 /* ---- Tracing -------------------------------------------------------------------------------- */
@@ -105,7 +106,10 @@ static const char union_begins[] =
 static const char union_ends[] =
     "        best.evaluations += hit.evaluations;\n"
     "[flags]        best.flags |= hit.flags;\n"
-    "[candidate]        if (hit.candidate_ratio < best.candidate_ratio) {\n"
+    "[candidate]        // Of a hit its own; else the least of all.\n"
+    "[candidate]        bool hits = hit.outcome == $hit && hit.t < best.t;\n"
+    "[candidate]        bool less = hit.candidate_ratio < best.candidate_ratio;\n"
+    "[candidate]        if (hits || (less && hit.outcome != $hit && best.outcome != $hit)) {\n"
     "[candidate]            best.candidate_ratio = hit.candidate_ratio;\n"
     "[candidate]            best.candidate_t = hit.candidate_t;\n"
     "[candidate]        }\n"
@@ -126,7 +130,9 @@ static void write_trace(spti_glsl *out, const spt_method *method, const char *na
     const char *const arguments[10] = {name, "", "", "", "", "", "", "", "", ""};
     int some = 0, all = 1;
     if (!spti_glsl_has(out, SPTI_GLSL_BIT(many))) {
+        spti_glsl_begin_guard(out, name);
         write_march(out, name, out->components[0].convex ? &convex_rule : method, NULL);
+        spti_glsl_end_guard(out, name);
         return;
     }
     for (uint32_t i = 0; i < out->component_count; ++i) {
@@ -134,10 +140,14 @@ static void write_trace(spti_glsl *out, const spt_method *method, const char *na
         all &= out->components[i].convex;
     }
     if (!all) write_march(out, march, method, NULL);
+    if (some && !all) spti_glsl_put(out, "\n");
     if (some) write_march(out, convex, &convex_rule, NULL);
+    spti_glsl_put(out, "\n");
+    spti_glsl_begin_guard(out, name);
     spti_glsl_expand(out, union_begins, arguments);
     call_march(out, march, some, all);
     spti_glsl_expand(out, union_ends, arguments);
+    spti_glsl_end_guard(out, name);
 }
 
 void spti_glsl_write_trace(spti_glsl *out) {
@@ -161,7 +171,7 @@ void spti_glsl_write_trace_back(spti_glsl *out) {
     const uint64_t base = out->conditions;
     const spt_method *const method =
         out->components[0].convex ? &convex_rule : out->settings.method;
-    out->conditions |= SPTI_GLSL_BIT(path) | SPTI_GLSL_BIT(stop_inside);
+    out->conditions |= SPTI_GLSL_BIT(path) | SPTI_GLSL_BIT(stop_inside) | SPTI_GLSL_BIT(back);
     out->conditions &= ~(SPTI_GLSL_BIT(skip_start) | SPTI_GLSL_BIT(candidate) |
                          SPTI_GLSL_BIT(between) | SPTI_GLSL_BIT(penumbra) | SPTI_GLSL_BIT(closest));
     write_march(out, "spt_trace_back", method, spti_glsl_back_begins);

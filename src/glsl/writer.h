@@ -18,6 +18,7 @@
     X(compute) \
     X(picture) /* a program of colours, which shows rays out of budget where they are */ \
     X(exact)   /* the target has `precise` */ \
+    X(back)    /* the march of spt_trace_convex(), in the unit of the one that calls it */ \
     X(probes)  /* of the step rule (methods/methods.h): */ \
     X(pending) \
     X(blends) \
@@ -70,7 +71,7 @@ enum {
 
 enum {
     SPTI_GLSL_PIECES = 512, /* most pieces of all rooms */
-    SPTI_GLSL_WORD = 64     /* longest identifier that is looked up */
+    SPTI_GLSL_WORD = 66     /* an identifier that is looked up is shorter */
 };
 
 /* A field to trace. */

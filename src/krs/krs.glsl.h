@@ -46,7 +46,7 @@ static const spti_glsl_piece spti_glsl_krs_pieces[] = {
      "    return turns <= most_turns && below <= 3.40282347e38 ? near_square : far_square;\n"
      "}\n"},
     {"spt_kernel_capsule",
-     "// A toroidal capsule (section 9.2), from the middle of its arc.\n"
+     "// A toroidal capsule (Szecsi et al. 2016, 9.2), from the middle of its arc.\n"
      "float spt_kernel_capsule(vec3 p, vec3 middle, vec3 outward, vec3 along, vec3 normal,\n"
      "                         vec4 arc, float radius) {\n"
      "    $precise vec3 q = p - middle;\n"
@@ -57,8 +57,8 @@ static const spti_glsl_piece spti_glsl_krs_pieces[] = {
      "    return d;\n"
      "}\n"},
     {"spt_kernel_leaf",
-     "// A flat leaf between two arcs over one chord (section 9.2): the nearer one is that on\n"
-     "// the point's side.\n"
+     "// A flat leaf between two arcs over one chord (Szecsi et al. 2016, 9.2): the nearer one is\n"
+     "// that on the point's side.\n"
      "float spt_kernel_leaf(vec3 p, vec3 middle, vec3 outward, vec3 along, vec3 normal, vec4 arc,\n"
      "                      float radius) {\n"
      "    $precise vec3 q = p - middle;\n"

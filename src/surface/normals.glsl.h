@@ -7,10 +7,6 @@
 #include "../base/glsl_piece.h"
 
 static const spti_glsl_piece spti_glsl_normals[] = {
-    {"spt_power_below", "// The power of two at or below a number, which may be 0.\n"
-                        "float spt_power_below(float a) {\n"
-                        "    return uintBitsToFloat(floatBitsToUint(a) & 0x7f800000u);\n"
-                        "}\n"},
     {"spt_cube_root",
      "// To 1e-3, of a number from 2^-40 to 2^20: a third of the exponent, then Newton's rule.\n"
      "float spt_cube_root(float a) {\n"
@@ -64,6 +60,7 @@ static const spti_glsl_piece spti_glsl_normals[] = {
      "// The normal at a hit; 0 for other rays.\n"
      "vec3 spt_hit_normal(SptRay ray, SptHit hit, float detail) {\n"
      "    if (hit.outcome != $hit) return vec3(0.0);\n"
+     "[library]    if (!(detail > 0.0)) detail = $detail; // as usual\n"
      "    $precise vec3 p = ray.origin + hit.t * ray.direction;\n"
      "[!pixel]    float least = 0.0;\n"
      "[pixel]    $precise float least = 0.25 * ($pixel_radius * spt_travelled(ray, hit.t));\n"

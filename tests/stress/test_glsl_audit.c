@@ -185,10 +185,12 @@ int glsl_text_audit(glsl_text *text, const char *const *roots, int root_count) {
         GLSL_IS_STRUCTURE | GLSL_IS_MACRO | GLSL_IS_GLOBAL | GLSL_IS_UNIFORM | GLSL_IS_FUNCTION;
     look_at_calls(text, roots, root_count);
     look_at_loops(text);
+    /* A block of push constants holds what was asked for, used or not: hosts count on its layout. */
+    const uint32_t in_block = glsl_text_find(text, "push_constant") >= 0 ? GLSL_IS_UNIFORM : 0;
     for (int32_t i = 0; i < text->name_count; ++i) {
         const glsl_name *const name = &text->names[i];
         if ((name->what & (GLSL_IS_GUARD | GLSL_IS_FUNCTION)) != 0) continue;
-        if ((name->what & needed) != 0 && name->uses == 0)
+        if ((name->what & needed & ~in_block) != 0 && name->uses == 0)
             complain(text, 0, "declared and not used", name);
     }
     return text->fault[0] == 0;
@@ -205,13 +207,26 @@ static void look_at_macros(glsl_text *text) {
     }
 }
 
+/* What stands before a function that can be replaced, which alone calls it. */
+static int is_part(const glsl_name *name) {
+    static const char *const parts[] = {"spt_field_", "spt_march", "spt_clip_", "spt_hull_",
+                                        "spt_unmap_"};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) {
+        const size_t length = strlen(parts[i]);
+        if (name->size >= length && memcmp(name->first, parts[i], length) == 0) return 1;
+    }
+    return 0;
+}
+
 static void look_at_guards(glsl_text *text) {
     for (int32_t i = 0; i < text->function_count; ++i) {
         const glsl_function *const function = &text->functions[i];
         const glsl_name *const name = &text->names[function->name];
-        if ((name->what & GLSL_IS_CALLERS) == 0 && guard_of(text, function->begin, -1) < 0)
+        if ((name->what & GLSL_IS_CALLERS) != 0 || is_part(name)) continue;
+        if (guard_of(text, function->begin, -1) < 0) {
             complain(text, text->tokens[function->begin].line, "a function that cannot be replaced",
                      name);
+        }
     }
 }
 

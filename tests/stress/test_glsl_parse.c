@@ -259,6 +259,10 @@ static int32_t declaration(glsl_text *text, int32_t i) {
     int uniform = 0;
     if (is_mark(text, i, ';')) return next(text, i);
     if (is_word(text, i, "precision")) return next(text, end_of_declarator(text, i));
+    if (is_word(text, i, "invariant") && is_mark(text, next(text, next(text, i)), ';')) {
+        use(text, next(text, i), -1);
+        return next(text, next(text, next(text, i)));
+    }
     if (is_word(text, i, "struct")) return structure(text, next(text, i));
     for (;; i = next(text, i)) {
         uniform |= is_word(text, i, "uniform");

@@ -10,7 +10,7 @@
 static glsl_text text;
 
 static const char good[] = "#version 330 core\n"
-                           "layout(location = 0) invariant out vec4 spt_out;\n"
+                           "layout(location = 0) out vec4 spt_out;\ninvariant spt_out;\n"
                            "uniform ivec2 spt_size;\n"
                            "uniform sampler2D spt_rays;\n"
                            "#define SPT_PRECISE\n"

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The pinned texts of test_golden_glsl.c. */
+GOLDEN_GLSL(smallest, 0x1f35481bu)
+GOLDEN_GLSL(shapes, 0x2ef0fdb2u)
+GOLDEN_GLSL(body, 0x251a4082u)
+GOLDEN_GLSL(guarded, 0xd24a82b3u)
+GOLDEN_GLSL(model, 0x533784e9u)
+GOLDEN_GLSL(model_in_arrays, 0x0741d550u)
+GOLDEN_GLSL(model_places, 0xd9482291u)
+GOLDEN_GLSL(mapped, 0x1bf68d61u)
+GOLDEN_GLSL(nested, 0x45639952u)
+GOLDEN_GLSL(distances, 0xb90cfa21u)
+GOLDEN_GLSL(cones, 0xda5120a4u)
+GOLDEN_GLSL(scene, 0x501a3a9bu)
+GOLDEN_GLSL(scene_library, 0xf502d236u)
+GOLDEN_GLSL(merged, 0x6bfa8b52u)
