@@ -23,6 +23,8 @@ typedef struct piece {
     spt_distance_batch_fn *batch[4];
     spt_distance_fn *point; /* NULL: the callbacks and all else but the extent are the scene's */
     part_reference_fn *reference;
+    const char *glsl, *glsl_prelude; /* as in spt_field */
+    const char *const *texts;        /* in the place of glsl, those of the entries of a table */
 } piece;
 
 static void placed_box_extent(const void *entry, part_extent *extent);
@@ -41,13 +43,18 @@ static void arches_extent(const void *entry, part_extent *extent);
     .batch = BATCHES(name), .point = scene_##name##_point, .reference = part_##name##_reference
 static const piece pieces[] = {
 #define PART(shown, name, ...) \
-    {.scene = #shown, .count = 1, CALLBACKS(shown##_##name), __VA_ARGS__},
+    {.scene = #shown, \
+     .count = 1, \
+     CALLBACKS(shown##_##name), \
+     .glsl = "    return " GLSL_##shown##_##name ";\n", \
+     __VA_ARGS__},
 #define PART_TABLE(shown, name, distance_of, type, entries, number, ...) \
     {.scene = #shown, \
      .table = (entries), \
      .count = (number), \
      .entry_size = sizeof(type), \
      CALLBACKS(shown##_##name), \
+     .texts = GLSL_##shown##_##name, \
      __VA_ARGS__},
 #define PART_WHOLE(shown, ...) {.scene = #shown, .count = 1, __VA_ARGS__},
 #include "parts_list.h"
@@ -125,6 +132,8 @@ static spt_field field_of(const scene *shown, const piece *one, size_t entry, in
     field.batch = lanes == 0 ? NULL : one->batch[batch_index(lanes)];
     field.point = lanes == 0 ? one->point : NULL;
     field.user = (void *)(uintptr_t)user; /* read only there */
+    field.glsl = one->texts != NULL ? one->texts[entry] : one->glsl;
+    field.glsl_prelude = one->glsl_prelude;
     field.flags = one->flags;
     if (one->lipschitz > 0) field.lipschitz = one->lipschitz;
     return field;

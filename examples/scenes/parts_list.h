@@ -7,7 +7,9 @@
  *                                                  one component for each of the first `count`
  *                                                  entries of a table of `type`, distance(entry, p)
  *     PART_WHOLE(scene, members of struct piece)   the scene itself, where it has an extent to add
- * A scene without a line is one component, as it is. The including file defines the three. */
+ * A scene without a line is one component, as it is. Texts in GLSL stand in the headers of scenes:
+ * GLSL_SCENE_NAME is an expression of p, or of a table an array of bodies. The including file
+ * defines the three. */
 #include "scene_primitives.h"
 #include "scene_mandelbulb.h"
 #include "scene_dodecahedron.h"

@@ -4,6 +4,7 @@
 #ifndef EXAMPLES_SCENE_ARCHES_H
 #define EXAMPLES_SCENE_ARCHES_H
 
+#include "scene_arches.glsl.h"
 #include "scene_source.h"
 
 /* The curved parts of a bay: a brace inside, a flying buttress outside. */
@@ -137,27 +138,31 @@ SPT_SHAPE spt_real arches_stone_at(const arches_place *place, spt_point p) {
 
 #ifdef SCENE
 SCENE_BLOCKS(arches, .description = "arches on a floor", .lipschitz = 1, .eye = {3.4, 2.6, 7.2},
-             .target = {0, 1.2, -0.9}, .field_of_view = 52, .t_max = 60)
+             .target = {0, 1.2, -0.9}, .field_of_view = 52, .t_max = 60,
+             .glsl_prelude = ARCHES_GLSL_PRELUDE)
 #endif
 
 #ifdef PART
 /* The extents are those of the middle bay's right-hand parts, seen from there. */
 PART_TABLE(arches, ring, arches_ring_at, arches_place, arches_places, ARCHES_BAYS,
-           .extent = BOX(-1.56, 1.44, -0.16, 1.56, 3.16, 0.16), .place = arches_extent)
+           .extent = BOX(-1.56, 1.44, -0.16, 1.56, 3.16, 0.16), .place = arches_extent,
+           .glsl_prelude = ARCHES_PART_PRELUDE)
 PART_TABLE(arches, pillar, arches_pillar_at, arches_place, arches_places, ARCHES_SIDES,
            .flags = SPT_FIELD_CONVEX, .extent = BOX(1.24, -0.16, -0.16, 1.56, 1.76, 0.16),
-           .place = arches_extent)
+           .place = arches_extent, .glsl_prelude = ARCHES_PART_PRELUDE)
 PART_TABLE(arches, foot, arches_foot_at, arches_place, arches_places, ARCHES_SIDES,
            .flags = SPT_FIELD_CONVEX, .extent = BOX(1.1, 0, -0.3, 1.7, 0.24, 0.3),
-           .place = arches_extent)
+           .place = arches_extent, .glsl_prelude = ARCHES_PART_PRELUDE)
 PART_TABLE(arches, stone, arches_stone_at, arches_place, arches_places, ARCHES_SIDES,
            .flags = SPT_FIELD_CONVEX, .extent = BOX(2.82, 0, -0.24, 3.38, 0.4, 0.24),
-           .place = arches_extent)
+           .place = arches_extent, .glsl_prelude = ARCHES_PART_PRELUDE)
 /* The circle of the buttress reaches 0.001 beyond its foot. */
 PART_TABLE(arches, brace, arches_brace_at, arches_place, arches_places, ARCHES_BAYS,
-           .extent = BOX(-1.37, 0.93, -0.07, 1.37, 2.37, 0.07), .place = arches_extent)
+           .extent = BOX(-1.37, 0.93, -0.07, 1.37, 2.37, 0.07), .place = arches_extent,
+           .glsl_prelude = ARCHES_PART_PRELUDE)
 PART_TABLE(arches, buttress, arches_buttress_at, arches_place, arches_places, ARCHES_BAYS,
-           .extent = BOX(-3.221, -0.12, -0.12, 3.221, 2.22, 0.12), .place = arches_extent)
+           .extent = BOX(-3.221, -0.12, -0.12, 3.221, 2.22, 0.12), .place = arches_extent,
+           .glsl_prelude = ARCHES_PART_PRELUDE)
 PART(arches, ridge, .flags = SPT_FIELD_CONVEX, .extent = BOX(-0.1, 2.9, -3.7, 0.1, 3.1, 1.3))
 PART(arches, ground, .flags = SPT_FIELD_CONVEX)
 #endif

@@ -5,6 +5,7 @@
 #ifndef EXAMPLES_SCENE_BOXES_H
 #define EXAMPLES_SCENE_BOXES_H
 
+#include "scene_boxes.glsl.h"
 #include "scene_source.h"
 
 typedef struct placed_box {
@@ -128,14 +129,17 @@ SPT_SHAPE void scene_slabs_block(int count, const spt_real *restrict x, const sp
 
 #ifdef SCENE
 SCENE_BLOCKS(village_boxes, .description = "81 towers and ground, 82 boxes", .lipschitz = 1,
-             .eye = {4.2, 5.2, 8.6}, .target = {0, 0.2, 0.4}, .field_of_view = 50, .t_max = 20)
+             .eye = {4.2, 5.2, 8.6}, .target = {0, 0.2, 0.4}, .field_of_view = 50, .t_max = 20,
+             .glsl_prelude = TOWN_GLSL_PRELUDE)
 SCENE_BLOCKS(slabs, .description = "13 thin slabs, seen into", .lipschitz = 1,
-             .eye = {2.1, 0.6, 3.6}, .target = {0, 0, 0}, .field_of_view = 50, .t_max = 20)
+             .eye = {2.1, 0.6, 3.6}, .target = {0, 0, 0}, .field_of_view = 50, .t_max = 20,
+             .glsl_prelude = SLABS_GLSL_PRELUDE)
 #endif
 
 #ifdef PART
 PART_TABLE(village_boxes, box, placed_box_distance, placed_box, town_boxes, TOWN_BOXES,
-           .flags = SPT_FIELD_CONVEX, .place = placed_box_extent)
+           .flags = SPT_FIELD_CONVEX, .place = placed_box_extent, .glsl_prelude = TOWN_GLSL_PRELUDE)
 PART_TABLE(slabs, slab, placed_box_distance, placed_box, slab_boxes, SLABS,
-           .flags = SPT_FIELD_CONVEX, .place = placed_box_extent)
+           .flags = SPT_FIELD_CONVEX, .place = placed_box_extent,
+           .glsl_prelude = SLABS_GLSL_PRELUDE)
 #endif

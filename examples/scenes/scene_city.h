@@ -6,6 +6,7 @@
 #ifndef EXAMPLES_SCENE_CITY_H
 #define EXAMPLES_SCENE_CITY_H
 
+#include "scene_city.glsl.h"
 #include "scene_source.h"
 
 /* The side of a cell, a power of two so that seeing a point from its cell's middle is exact; how
@@ -90,5 +91,6 @@ SPT_SHAPE spt_real scene_city_distance(spt_point p) {
 
 #ifdef SCENE
 SCENE(city, .description = "a city without end, a tower in every cell", .lipschitz = 1,
-      .eye = {2.2, 6.4, 22}, .target = {1.4, 3.6, 4}, .field_of_view = 60, .t_max = 300)
+      .eye = {2.2, 6.4, 22}, .target = {1.4, 3.6, 4}, .field_of_view = 60, .t_max = 300,
+      .glsl_prelude = CITY_GLSL_PRELUDE)
 #endif

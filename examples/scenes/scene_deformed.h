@@ -6,6 +6,7 @@
 #ifndef EXAMPLES_SCENE_DEFORMED_H
 #define EXAMPLES_SCENE_DEFORMED_H
 
+#include "scene_deformed.glsl.h"
 #include "scene_source.h"
 
 #define TWISTED_RATE 0.8
@@ -129,23 +130,28 @@ SPT_SHAPE spt_real repeated_ball(spt_point p) {
 /* spt_twist_lipschitz(0.8, reach) = (a + sqrt(a^2 + 4)) / 2, a = 0.8 reach */
 SCENE(twisted, .description = "twisted tower", .lipschitz = 2.02202f,
       .bound = BOX(-1.35f, -2.2f, -1.35f, 1.35f, 1.95f, 1.35f), .eye = {2.3, 2.7, 8.7},
-      .target = {0, -0.15, 0}, .field_of_view = 45, .t_max = 40)
+      .target = {0, -0.15, 0}, .field_of_view = 45, .t_max = 40,
+      .glsl_prelude = TWISTED_GLSL_PRELUDE)
 /* spt_bend_lipschitz(0.4, reach) = 1 + 0.4 reach */
 SCENE(bent, .description = "bent bridge", .lipschitz = 2.0561f,
       .bound = BOX(-2.1f, -1.6f, -0.9f, 2.1f, 0.75f, 0.9f), .eye = {2.7, 1.7, 5.3},
-      .target = {0, -0.5, 0}, .field_of_view = 48, .t_max = 40)
+      .target = {0, -0.5, 0}, .field_of_view = 48, .t_max = 40, .glsl_prelude = BENT_GLSL_PRELUDE)
 SCENE(repeated, .description = "columns and rings, repeated for ever", .lipschitz = 1,
       .eye = {1.2, 3.7, 8.4}, .target = {0.5, 0.4, 0}, .field_of_view = 55, .t_max = 60)
 #endif
 
 #ifdef PART
 /* Twisted by 1.5 to each side, the corners of the tower come round by all axes. */
-PART(twisted, tower, .lipschitz = 1.58568f, .extent = BOX(-0.844, -1.9, -0.844, 0.844, 1.9, 0.844))
+PART(twisted, tower, .lipschitz = 1.58568f, .extent = BOX(-0.844, -1.9, -0.844, 0.844, 1.9, 0.844),
+     .glsl_prelude = TWISTED_GLSL_PRELUDE)
 PART(twisted, plinth, .lipschitz = 1, .flags = SPT_FIELD_CONVEX,
      .extent = BOX(-1.3, -2.15, -1.3, 1.3, -1.85, 1.3))
-PART(bent, deck, .extent = BOX(-1.75, -1.44, -0.85, 1.75, 0.12, 0.85))
-PART(bent, row, .extent = BOX(-1.89, -1.235, -0.82, 1.89, 0.56, 0.82))
-PART(bent, rail, .extent = BOX(-1.99, -1.16, -0.8, 1.99, 0.65, 0.8))
+PART(bent, deck, .extent = BOX(-1.75, -1.44, -0.85, 1.75, 0.12, 0.85),
+     .glsl_prelude = BENT_GLSL_PRELUDE)
+PART(bent, row, .extent = BOX(-1.89, -1.235, -0.82, 1.89, 0.56, 0.82),
+     .glsl_prelude = BENT_GLSL_PRELUDE)
+PART(bent, rail, .extent = BOX(-1.99, -1.16, -0.8, 1.99, 0.65, 0.8),
+     .glsl_prelude = BENT_GLSL_PRELUDE)
 PART(repeated, shaft, .flags = 0)
 PART(repeated, ring, .flags = 0)
 PART(repeated, foot, .flags = 0)

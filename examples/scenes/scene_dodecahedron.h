@@ -7,6 +7,7 @@
 #ifndef EXAMPLES_SCENE_DODECAHEDRON_H
 #define EXAMPLES_SCENE_DODECAHEDRON_H
 
+#include "scene_dodecahedron.glsl.h"
 #include "scene_source.h"
 
 /* Normals of the faces: (0, 1, phi) / |..| and so on, phi the golden ratio. */
@@ -73,8 +74,10 @@ SPT_SHAPE spt_real scene_dodecahedron_p32_distance(spt_point p) {
 /* The corners of the dodecahedron lie at 1.2584. */
 SCENE(dodecahedron, .description = "regular dodecahedron, a maximum of six slabs; convex",
       .lipschitz = 1, .flags = SPT_FIELD_CONVEX, .bound = BALL(0, 0, 0, 1.26f),
-      .eye = {1.6, 2.1, 4.2}, .target = {0, 0, 0}, .field_of_view = 45, .t_max = 20)
+      .eye = {1.6, 2.1, 4.2}, .target = {0, 0, 0}, .field_of_view = 45, .t_max = 20,
+      .glsl_prelude = DODECAHEDRON_GLSL_PRELUDE)
 SCENE(dodecahedron_p32, .description = "generalised distance with exponent 32; convex",
       .lipschitz = 1, .flags = SPT_FIELD_CONVEX, .bound = BALL(0, 0, 0, 1.26f),
-      .eye = {1.6, 2.1, 4.2}, .target = {0, 0, 0}, .field_of_view = 45, .t_max = 20)
+      .eye = {1.6, 2.1, 4.2}, .target = {0, 0, 0}, .field_of_view = 45, .t_max = 20,
+      .glsl_prelude = DODECAHEDRON_P32_GLSL_PRELUDE)
 #endif

@@ -6,6 +6,7 @@
 #ifndef EXAMPLES_SCENE_GLASS_H
 #define EXAMPLES_SCENE_GLASS_H
 
+#include "scene_dodecahedron.glsl.h"
 #include "scene_source.h"
 
 /* That of scene_dodecahedron.h, which comes first in the list of scenes, turned about z: the normal
@@ -20,5 +21,6 @@ SPT_SHAPE spt_real scene_glass_distance(spt_point p) {
 #ifdef SCENE
 SCENE(glass, .description = "rounded dodecahedron on a face; convex", .lipschitz = 1,
       .flags = SPT_FIELD_CONVEX, .bound = BALL(0, 0, 0, 1.26f), .eye = {3.0, 1.7, 6.9},
-      .target = {0.1, -0.27, -0.3}, .field_of_view = 35, .t_max = 40)
+      .target = {0.1, -0.27, -0.3}, .field_of_view = 35, .t_max = 40,
+      .glsl_prelude = DODECAHEDRON_P32_GLSL_PRELUDE)
 #endif

@@ -6,6 +6,7 @@
 #define EXAMPLES_SCENE_JEWEL_H
 
 #include "jewel_planes.h"
+#include "scene_jewel.glsl.h"
 #include "scene_source.h"
 
 /* How far a point reaches out along the horizontal directions of the facets, at most: of those at

@@ -6,6 +6,7 @@
 #ifndef EXAMPLES_SCENE_MANDELBULB_H
 #define EXAMPLES_SCENE_MANDELBULB_H
 
+#include "scene_mandelbulb.glsl.h"
 #include "scene_source.h"
 
 enum { MANDELBULB_ITERATIONS = 6, MANDELBULB_VECTORS = 2 };
@@ -167,5 +168,6 @@ SPT_INLINE void scene_mandelbulb_vectors(size_t n, const float *x, const float *
 SCENE_VECTORS(mandelbulb,
               .description = "Mandelbulb of power 8, 6 iterations; an estimate, not a bound",
               .lipschitz = 1, .bound = BALL(0, 0, 0, 1.25f), .eye = {1.85, 1.5, 3},
-              .target = {0, 0, 0}, .field_of_view = 50, .t_max = 10)
+              .target = {0, 0, 0}, .field_of_view = 50, .t_max = 10,
+              .glsl_prelude = MANDELBULB_GLSL_PRELUDE)
 #endif

@@ -5,6 +5,7 @@
 #ifndef EXAMPLES_SCENE_PRIMITIVES_H
 #define EXAMPLES_SCENE_PRIMITIVES_H
 
+#include "scene_primitives.glsl.h"
 #include "scene_source.h"
 
 /* A stepped plinth with a ring and a ball over it, between two columns under a beam. */

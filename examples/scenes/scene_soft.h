@@ -5,6 +5,7 @@
 #ifndef EXAMPLES_SCENE_SOFT_H
 #define EXAMPLES_SCENE_SOFT_H
 
+#include "scene_soft.glsl.h"
 #include "scene_source.h"
 
 SPT_SHAPE spt_real scene_smooth_union_distance(spt_point p) {

@@ -5,6 +5,7 @@
 #ifndef EXAMPLES_SCENE_SOLIDS_H
 #define EXAMPLES_SCENE_SOLIDS_H
 
+#include "scene_solids.glsl.h"
 #include "scene_source.h"
 
 SPT_SHAPE spt_real scene_sphere_distance(spt_point p) {

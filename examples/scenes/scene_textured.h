@@ -6,6 +6,7 @@
 #ifndef EXAMPLES_SCENE_TEXTURED_H
 #define EXAMPLES_SCENE_TEXTURED_H
 
+#include "scene_textured.glsl.h"
 #include "scene_source.h"
 
 /* Belly, brim, neck and foot, grown together. Blends never leave the mean of their parts' slopes,

@@ -31,6 +31,7 @@
     scene_reference_fn scene_##scene_name##_reference; \
     static const scene scene_name##_entry = {.name = #scene_name, \
                                              .batch = BATCHES(scene_name), \
+                                             .glsl = GLSL_##scene_name, \
                                              .point = scene_##scene_name##_point, \
                                              .reference = scene_##scene_name##_reference, \
                                              __VA_ARGS__};
@@ -70,10 +71,14 @@ spt_field scene_field(const scene *shown, int lanes) {
     spt_field field = spt_field_default();
     if (shown->field != NULL) {
         field = shown->field(lanes);
-    } else if (lanes == 0) {
-        field.point = shown->point;
     } else {
-        field.batch = shown->batch[batch_index(lanes)];
+        field.glsl = shown->glsl;
+        field.glsl_prelude = shown->glsl_prelude;
+        if (lanes == 0) {
+            field.point = shown->point;
+        } else {
+            field.batch = shown->batch[batch_index(lanes)];
+        }
     }
     field.lipschitz = shown->lipschitz;
     field.flags = shown->flags;

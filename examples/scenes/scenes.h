@@ -29,6 +29,7 @@ typedef struct scene {
     spt_distance_fn *point;          /* one point */
     scene_field_fn *field;           /* builds what has no callbacks of its own, or NULL */
     scene_reference_fn *reference;
+    const char *glsl, *glsl_prelude; /* as in spt_field; NULL where the library writes it */
 } scene;
 
 /* All scenes, and how many. */
@@ -39,8 +40,9 @@ extern const size_t scene_count;
 const scene *scene_named(const char *name);
 
 /* Its field with the batch callback built for a width (1, 4, 8, 16: pass spt_lanes()), or, for
- * lanes 0, with the callback for one point. Where the scene has to be built first, so by the first
- * call, and that of `reference`: they must not come from two threads at once. */
+ * lanes 0, with the callback for one point; and with its text in GLSL. Where the scene has to be
+ * built first, so by the first call, and that of `reference`: they must not come from two threads
+ * at once. */
 spt_field scene_field(const scene *scene, int lanes);
 
 /* The rays of a pinhole camera, at the pixel centres, unit directions, row by row from the top;

@@ -9,6 +9,7 @@
  *                                                  the reference, after scene_NAME_prepare()
  *     SCENE_UNLISTED(name, members)                the same, found by its name only: one that tests
  *                                                  of all scenes would learn nothing from
+ * Beside the first three stands their text in GLSL, in a header of the same name, as GLSL_NAME.
  * The including file defines SCENE, and the others where they make a difference to it. */
 #ifndef SCENE_BLOCKS
 #define SCENE_BLOCKS SCENE
