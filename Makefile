@@ -4,6 +4,7 @@
 # make check      build and run the tests (under a minute)
 # make demo       render the gallery into build/gallery/
 # make gallery    all pictures, large ones too
+# make check_glsl shaders against the library, on engines without a GPU
 # make bench      measure; writes build/bench/*.csv
 # make install    PREFIX=/usr/local DESTDIR= LIBDIR= INCLUDEDIR=
 #
@@ -267,6 +268,51 @@ check: need_cxx $B/check$(EXE) $B/headers.ok $(if $(CXX_HERE),$B/exceptions$(EXE
 	@RUN='$(RUN)' EXE='$(EXE)' sh tests/render.sh $B
 	$(if $(CXX_HERE),@$(RUN) $B/exceptions$(EXE))
 	@sh tests/halves.sh $(RUN) $B/check$(EXE)
+
+# ---- Shaders ------------------------------------------------------------------------------------
+
+# Tests of emitted GLSL need EGL and OpenGL (Mesa's llvmpipe runs them without a GPU), and use
+# Vulkan (lavapipe), Chromium and the validators where they are there.
+GLSL_SOURCES := $(filter-out tests/glsl/matrix.c,$(wildcard tests/glsl/*.c))
+GLSL_MAIN := -DCHECK_SUITES='"glsl/glsl_suites.h"' -DCHECK_NEEDS=engine_gl_open
+has_header = $(shell printf '\043include <$(1)>\n' | $(CC) -fsyntax-only -x c - >/dev/null 2>&1 && \
+               echo 1 || echo 0)
+EGL ?= $(if $(filter 11,$(call has_header,EGL/egl.h)$(call has_header,GL/gl.h)),1,0)
+EGL := $(EGL)
+VULKAN ?= $(call has_header,vulkan/vulkan.h)
+VULKAN := $(VULKAN)
+
+# Headers of GL and POSIX are no C99.
+$(GLSL_SOURCES:%.c=$B/%.o): $B/%.o: %.c $B/setup
+	@mkdir -p $(@D)
+	$(call SAY,$@)
+	$(Q)$(subst -std=c99 -pedantic-errors,-std=gnu99,$(subst -O3,-O1,$(OWN))) -I. \
+	  $(if $(filter 1,$(VULKAN)),-DENGINE_VULKAN) $(CFLAGS) $(KEEP) -c $< -o $@
+
+$B/tests/glsl_main.o: tests/main.c $B/setup
+	@mkdir -p $(@D)
+	$(call SAY,$@)
+	$(Q)$(OWN) $(GLSL_MAIN) $(CFLAGS) $(KEEP) -c $< -o $@
+
+$B/check_glsl$(EXE): $(GLSL_SOURCES:%.c=$B/%.o) $B/tests/glsl_main.o $B/examples/shared.a $(SCENES) $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(EXAMPLE_LINK) $(CFLAGS) $(LDFLAGS) $^ $(OIIO_LIBS) -lEGL -lGL \
+	  $(if $(filter 1,$(VULKAN)),-lvulkan) -lm -pthread -o $@
+
+$B/glsl_matrix$(EXE): $(patsubst %,$B/tests/glsl/%.o,matrix glsl_graph glsl_models glsl_rays \
+                        glsl_scenes) $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
+
+.PHONY: check_glsl need_egl
+need_egl:
+	@[ "$(EGL)" = 1 ] || { echo 'skipped: check_glsl, no headers of EGL and OpenGL (libegl-dev, libgl-dev)'; \
+	  [ "$$SPT_REQUIRE" != 1 ]; }
+
+# The program answers 77 where nothing is there that runs shaders.
+check_glsl: need_egl $B/glsl_matrix$(EXE) $(if $(filter 1,$(EGL)),$B/check_glsl$(EXE))
+	@sh tests/glsl/validators.sh $B
+	$(if $(filter 1,$(EGL)),@sh tests/halves.sh $(RUN) $B/check_glsl$(EXE) || [ $$? = 77 ])
 
 # ---- Benches ------------------------------------------------------------------------------------
 

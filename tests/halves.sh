@@ -11,6 +11,7 @@ other=$!
 "$@" 2/2 >"$folder/second" 2>&1
 status=$?
 wait "$other" || status=1
+[ "$status" = 77 ] && cat "$folder/second" && exit 77
 for half in first second; do grep -vE '^[0-9]+ passed, |^random numbers' "$folder/$half"; done
 grep -h '^random numbers' "$folder/first"
 grep -hE '^[0-9]+ passed, ' "$folder/first" "$folder/second" | awk '
