@@ -173,7 +173,7 @@ $B/examples/scenes/%.o: examples/scenes/%.c $B/setup
 
 # Programs of one idea each; what they share is linked as far as they need it.
 PROGRAMS := one_ray batch_callback one_frame glass_ball mirrored_tree methods_compared progressive \
-            shadow_pass occlusion_pass path_tracer whitted figures models render
+            shadow_pass occlusion_pass path_tracer whitted figures models shader emit render
 # Those that only say whether all is well when run without arguments.
 CHECKED := $(filter-out render,$(PROGRAMS))
 SHARED_SOURCES := $(filter-out $(PROGRAMS:%=examples/%.c),$(wildcard examples/*.c))
@@ -205,15 +205,32 @@ $(PROGRAMS:%=$B/%$(EXE)): $B/%$(EXE): $B/examples/%.o $B/examples/shared.a $(SCE
 	$(call SAY,$@)
 	$(Q)$(EXAMPLE_LINK) $(CFLAGS) $(LDFLAGS) $^ $(OIIO_LIBS) -lm -pthread -o $@
 
-demo: $B/render$(EXE) $B/models$(EXE)
+# The pages that emit writes are compiled in: an array of a file's lines, page_NAME_ENDING.
+PAGES := $(wildcard examples/pages/*.*)
+$B/examples/pages.c: $(PAGES) $B/setup
+	@mkdir -p $(@D)
+	@for page in $(PAGES); do \
+	  name=page_$$(basename $$page | tr . _); \
+	  printf 'extern const char *const %s[];\nconst char *const %s[] = {\n' $$name $$name; \
+	  sed 's/[\\"?]/\\&/g; s/.*/    "&\\n",/' $$page; \
+	  printf '    (void *)0};\n'; \
+	done >$@
+$B/examples/pages.o: $B/examples/pages.c
+	@mkdir -p $(@D)
+	$(Q)$(COMPILE) $(CFLAGS) $(KEEP) -c $< -o $@
+$B/emit$(EXE): $B/examples/pages.o
+
+demo: $B/render$(EXE) $B/models$(EXE) $B/emit$(EXE)
 	@mkdir -p $B/gallery
 	$(RUN) $B/models$(EXE) $B/gallery
+	$(RUN) $B/emit$(EXE) --page $B/gallery/viewer.html tree
 	$(RUN) $B/render$(EXE) --gallery $B/gallery
 
 # LARGE= renders the models of nature small.
 LARGE ?= --large
 gallery: $(patsubst %,$B/%$(EXE),render progressive shadow_pass occlusion_pass path_tracer whitted \
-                  figures models)
+                  figures models emit)
+	$(RUN) $B/emit$(EXE) --page $B/gallery/viewer.html tree
 	$(RUN) $B/render$(EXE) --gallery $B/gallery --large
 	$(RUN) $B/progressive$(EXE) primitives $B/gallery/progressive_primitives.png
 	$(RUN) $B/progressive$(EXE) mandelbulb $B/gallery/progressive_mandelbulb.png
