@@ -340,7 +340,14 @@ BENCH_OBJECTS := $(BENCH_PLAIN:%.c=$B/%.o) $B/tests/bench/scalar_loop.o \
 FRAME_SOURCES := $(wildcard tests/bench/frame/*.c)
 KEINERT_SOURCES := $(wildcard tests/bench/keinert/*.c) tests/bench/frame/frame_picture.c \
                    tests/oracle/listings.c
-PEERS_SOURCES := $(wildcard tests/bench/peers/*.c) tests/bench/frame/frame_picture.c
+# Each peer is left out where its headers are not there: libembree-dev, libegl-dev and libgl-dev.
+PEERS_EMBREE := village check embree triangles user
+PEERS_LLVMPIPE := shaders llvmpipe
+PEERS_PARTS = bench $(if $(filter 1,$(EMBREE)),$(PEERS_EMBREE)) \
+              $(if $(filter 1,$(EGL)),$(PEERS_LLVMPIPE))
+PEERS_SOURCES = $(PEERS_PARTS:%=tests/bench/peers/peers_%.c) tests/bench/frame/frame_picture.c
+PEERS_FLAGS = $(if $(filter 1,$(EMBREE)),-DPEERS_EMBREE) $(if $(filter 1,$(EGL)),-DPEERS_LLVMPIPE)
+PEERS_LIBS = $(if $(filter 1,$(EMBREE)),-lembree3) $(if $(filter 1,$(EGL)),-lEGL -lGL)
 KRS_SOURCES := $(wildcard tests/bench/krs/*.c) tests/bench/frame/frame_picture.c
 # The scalar loop that the driver is measured against gets all that the machine has, and so do the
 # callbacks that Embree calls.
@@ -381,22 +388,22 @@ $B/keinert_bench$(EXE): $(KEINERT_SOURCES:%.c=$B/%.o) $B/tests/bench/bench.o \
 	$(call SAY,$@)
 	$(Q)$(EXAMPLE_LINK) $(CFLAGS) $(LDFLAGS) $^ $(OIIO_LIBS) -lm -pthread -o $@
 
+$B/tests/bench/peers/peers_bench.o: $B/%.o: %.c $B/setup
+	@mkdir -p $(@D)
+	$(call SAY,$@)
+	$(Q)$(OWN) $(PEERS_FLAGS) $(CFLAGS) $(KEEP) -c $< -o $@
+
 $B/peers_bench$(EXE): $(PEERS_SOURCES:%.c=$B/%.o) $B/tests/bench/bench.o $(SCENES) $(STATIC)
 	$(call SAY,$@)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lembree3 -lm -o $@
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PEERS_LIBS) -lm -o $@
 
 $B/krs_bench$(EXE): $(KRS_SOURCES:%.c=$B/%.o) $B/tests/bench/bench.o $(SCENES) $(STATIC)
 	$(call SAY,$@)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 
-.PHONY: need_embree
-need_embree:
-	@[ "$(EMBREE)" = 1 ] || { echo 'skipped: peers_bench, no Embree 3 (libembree-dev)'; \
-	  [ "$$SPT_REQUIRE" != 1 ]; }
-
 # QUICK=1: smaller pictures and fewer rounds.
-BENCHES := driver_bench frame_bench keinert_bench krs_bench $(if $(filter 1,$(EMBREE)),peers_bench)
-bench: need_embree $(BENCHES:%=$B/%$(EXE))
+BENCHES := driver_bench frame_bench keinert_bench krs_bench peers_bench
+bench: $(BENCHES:%=$B/%$(EXE))
 	@mkdir -p $B/bench
 	@for program in $(BENCHES); do \
 	  $(RUN) $B/$$program$(EXE) $(if $(QUICK),--quick) --output $B/bench || exit 1; \
