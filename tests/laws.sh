@@ -45,7 +45,7 @@ exported() { nm -D --defined-only "$shared" |
 none "the shared library exports only spt_ names" exported
 # bcmp is what clang makes of memcmp() == 0.
 undefined() { nm -u "$archive" | sed -n 's/^ *U //p' | sort -u | grep -vxE \
-  'spti?_[a-z0-9_]*|mem(cpy|set|move|cmp)|bcmp|str(len|cmp|ncmp|chr|spn|cspn)|(sqrt|fabs|floor)f?|__cpu_model|_GLOBAL_OFFSET_TABLE_'; }
+  'spti?_[a-z0-9_]*|mem(cpy|set|move|cmp|chr)|bcmp|str(len|cmp|ncmp|chr|spn|cspn)|(sqrt|fabs|floor)f?|__cpu_model|_GLOBAL_OFFSET_TABLE_'; }
 none "the library needs only memory functions and libm" undefined
 writable() { size -A "$archive" |
   awk '$1 ~ /^\.(data|bss|tdata|tbss)/ && $1 !~ /^\.data\.rel\.ro/ && $2 > 0 {print $1, $2}'; }
