@@ -4,6 +4,7 @@
  * ray by ray against the C library. Left out: names and uniforms (test_found_names_glsl.c), and what
  * the suites of the features cover. */
 #include "glsl_check.h"
+#include "glsl_written.h"
 
 #include <spheretrace/spheretrace.h>
 
@@ -65,28 +66,6 @@ static spt_glsl_options hits_of(const spt_field *field, const spt_scene *scene,
     options.target = SPT_GLSL_COMPUTE_450;
     options.features = features;
     return options;
-}
-
-/* Memory that the caller frees, or NULL and a failed check. */
-static char *written(const spt_glsl_options *options) {
-    size_t length = 0;
-    (void)spt_glsl_emit(options, NULL, 0, &length);
-    char *const text = malloc(length + 1);
-    const spt_status status =
-        text == NULL ? SPT_BUFFER_TOO_SMALL : spt_glsl_emit(options, text, length + 1, NULL);
-    CHECK_SAY(status == SPT_OK, "status %d", (int)status);
-    if (status == SPT_OK) return text;
-    free(text);
-    return NULL;
-}
-
-/* Memory that the caller frees: three texts, one behind the other. */
-static char *joined(const char *before, const char *text, const char *after) {
-    const size_t size = strlen(before) + strlen(text) + strlen(after) + 1;
-    char *const all = malloc(size);
-    CHECK(all != NULL);
-    if (all != NULL) snprintf(all, size, "%s%s%s", before, text, after);
-    return all;
 }
 
 static spt_ray ray_of(float y, float z, float length, float t_min, float t_max) {

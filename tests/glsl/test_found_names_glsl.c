@@ -3,6 +3,7 @@
  * Faults of names in emitted shaders that were found and mended: the time of callers' texts in each
  * target, long names, and where Vulkan's parameters are. Left out: tracing (test_found_glsl.c). */
 #include "glsl_check.h"
+#include "glsl_written.h"
 
 #include <spheretrace/spheretrace.h>
 
@@ -29,28 +30,6 @@ static spt_camera some_camera(void) {
     spt_camera camera;
     CHECK(spt_camera_pinhole(&camera, eye, middle, up, 0.5f, WIDTH, HEIGHT) == SPT_OK);
     return camera;
-}
-
-/* Memory that the caller frees, or NULL and a failed check. */
-static char *written(const spt_glsl_options *options) {
-    size_t length = 0;
-    (void)spt_glsl_emit(options, NULL, 0, &length);
-    char *const text = malloc(length + 1);
-    const spt_status status =
-        text == NULL ? SPT_BUFFER_TOO_SMALL : spt_glsl_emit(options, text, length + 1, NULL);
-    CHECK_SAY(status == SPT_OK, "status %d", (int)status);
-    if (status == SPT_OK) return text;
-    free(text);
-    return NULL;
-}
-
-/* Memory that the caller frees: three texts, one behind the other. */
-static char *joined(const char *before, const char *text, const char *after) {
-    const size_t size = strlen(before) + strlen(text) + strlen(after) + 1;
-    char *const all = malloc(size);
-    CHECK(all != NULL);
-    if (all != NULL) snprintf(all, size, "%s%s%s", before, text, after);
-    return all;
 }
 
 /* ---- Asking for distances ------------------------------------------------------------------ */
