@@ -16,7 +16,7 @@
  * the texture counts its texels. */
 static const spti_glsl_piece spti_glsl_cone[] = {
     {"spt_cone_of",
-     "// How far a cone is free. A step is (distance - beta - alpha t) / (1 + alpha): the slice\n"
+     "// How far a cone is empty. A step is (distance - beta - alpha t) / (1 + alpha): the slice\n"
      "// at its end, wider by alpha times the step, is still within the sphere. (By the distance,\n"
      "// as printed in Balint & Valasek 2018, section 4, it skips surfaces.)\n"
      "float spt_cone_of($Pvec3 origin, vec3 direction, float alpha, float beta, vec2 range,\n"
@@ -61,7 +61,7 @@ static const spti_glsl_piece spti_glsl_cone[] = {
      "    return t;\n"
      "}\n"},
     {"spt_block_cone",
-     "// How far all rays through a block of the picture are free; 3.0e38: they meet nothing.\n"
+     "// How far all rays through a block of the picture meet nothing; 3.0e38: they never do.\n"
      "// The cap around its middle ray that holds its corners meets the image plane in a convex\n"
      "// region, so it holds all of them.\n"
      "float spt_block_cone(vec2 low, vec2 high, int budget) {\n"

@@ -26,7 +26,7 @@ static const spti_glsl_piece spti_glsl_macros[] = {
 };
 
 static const spti_glsl_piece spti_glsl_cone_pass[] = {
-    {"spt_cone_over", "// How far all rays are free through a block of the picture; blocks are "
+    {"spt_cone_over", "// How far all rays meet nothing through a block of the picture; blocks are "
                       "counted from the top\n"
                       "// where they go to a buffer, from the bottom where they are texels.\n"
                       "float spt_cone_over(ivec2 block, int budget) {\n"

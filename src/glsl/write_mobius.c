@@ -194,7 +194,7 @@ static void put_extent(spti_glsl *out, const spt_bound *bound) {
 
 void spti_glsl_probe(spti_glsl *out, const spt_field *field) {
     static const char head[] =
-        "// Whether a ball is free of the body: then its clearance is not negative.\n"
+        "// Whether a ball is clear of the body: then its clearance is not negative.\n"
         "float spt_probe(vec3 center, float radius)";
     spti_glsl_model model;
     put_extent(out, field->bound);

@@ -24,7 +24,7 @@
     X(blends) \
     X(secant)    /* it is spt_convex() */ \
     X(remembers) /* it has a memory */ \
-    X(striding)  /* its steps are not the free radius (but with `between`, where spt_convex()
+    X(striding)  /* its steps are not the certified radius (but with `between`, where spt_convex()
                      * takes plain ones) */ \
     X(stepping)  /* it looks at the step behind it, or something else does */ \
     X(first)     /* and at whether there was one */ \
