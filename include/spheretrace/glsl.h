@@ -189,7 +189,7 @@ enum {
     /* gl_FragDepth, and misses are discarded, so that triangles and fields are one picture. */
     SPT_GLSL_DEPTH_WRITE = 1u << 14,
     /* Constants of kernel-reflection sequences in arrays and a loop: shorter texts. Otherwise
-     * unrolled, each kernel only what it needs (26 to 36 times as fast on llvmpipe). */
+     * unrolled, each kernel only what it needs (17 to 23 times as fast on llvmpipe). */
     SPT_GLSL_ARRAYS = 1u << 15,
     /* A scene as one field, the least of all over their Lipschitz constants, of which residual is
      * the value: one march, with the component of the least. Bounds are not used: texts must answer
