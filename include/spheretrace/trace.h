@@ -191,8 +191,9 @@ SPT_API const spt_method *spt_enhanced(void);
 SPT_API const spt_method *spt_auto_relaxed(void);
 
 /* The step of spt_enhanced(), at most step_cap * r, with the recovery of rejected probes. The
- * default: of the rules that need no licence it takes the fewest evaluations on average, and it
- * lost no ray of a Mandelbulb estimate, which is no distance bound. */
+ * default: of the rules that need no licence it takes the fewest evaluations on average and, like
+ * all of them, loses nothing of a field that keeps its promise. Of one that does not, every rule
+ * that probes may lose more than spt_basic(); `make report` shows how much. */
 SPT_API const spt_method *spt_adaptive(void);
 
 /* For fields with SPT_FIELD_CONVEX, refused without: along a ray a convex f lies above its secant,
@@ -243,20 +244,21 @@ typedef struct spt_settings {
     float size;               /* largest coordinate the callback works with, for the rounding
                                * floor, world length, >= 0; 0: unknown. A bound of the field
                                * counts by itself. Default 0 */
-    float relaxation;         /* spt_relaxed: step over r, in [1, 2). Default 1.2 */
+    float relaxation;         /* spt_relaxed: step over r, in [1, 2). Default 1.4 */
     float extrapolation;      /* spt_enhanced, spt_adaptive: weight of the inferred second radius,
                                * in [0, 1]. Default 0.88 */
     float slope_blend;        /* spt_auto_relaxed: weight of the newest slope, in (0, 1]. Default
-                               * 0.3 */
-    float step_cap;           /* spt_adaptive: longest step over r, in [1, 100]. Default 3 */
+                               * 0.6 */
+    float step_cap;           /* spt_adaptive: longest step over r, in [1, 100]. Default 6 */
     uint32_t max_lanes;       /* 1, 4, 8 or 16: no wider than this; 0: the widest there is. A width
                                * the machine lacks falls to the next lower one */
     uint32_t flags;           /* SPT_SKIP_START and so on. Default 0 */
 } spt_settings;
 
-/* The defaults above. */
+/* The defaults above. The numbers of the rules are those with the fewest evaluations over ten kinds
+ * of scene and two stops; within half a per cent the one that is nearest to spt_basic(). */
 static inline spt_settings spt_settings_default(void) {
-    spt_settings settings = {0, NULL, 128, 1e-4f, 0.0f, 0.0f, 1.2f, 0.88f, 0.3f, 3.0f, 0, 0};
+    spt_settings settings = {0, NULL, 128, 1e-4f, 0.0f, 0.0f, 1.4f, 0.88f, 0.6f, 6.0f, 0, 0};
     settings.struct_size = sizeof settings;
     settings.method = spt_adaptive();
     return settings;

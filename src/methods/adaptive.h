@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * The default: planar extrapolation that keeps rejected probes and is capped. The cap stops
- * tunnelling through fields that are no distance bounds: of 19 200 rays against a Mandelbulb
- * estimate, no cap lost 2, a cap of 4 lost 1, of 3 none, for under 2 % more evaluations. */
+ * The default: planar extrapolation that keeps rejected probes and is capped. What the cap saves is
+ * probes that fail: from 3 to 6 evaluations fall by 1.9 %, and from there to none by 0.3 %. It
+ * protects no field that breaks its promise: over 921 600 rays of a Mandelbulb estimate caps of 2 to
+ * 10 lost 17 to 22, without order. */
 #include "planar.h"
 
 enum { rule_probes = 1, rule_pending = 1, rule_memory = 1, rule_blends = 0, rule_needs_convex = 0 };

@@ -230,12 +230,13 @@ static void D5_past_a_sphere(void) {
 }
 
 /* The longest step over r that a rule may take: for enhanced, m is clamped at -0.98, so
- * 1 + k (1 - m) / (1 + m) with k = 0.88; auto_relaxed: 2 / (1 - 0.98). */
+ * 1 + k (1 - m) / (1 + m) with k the weight of the extrapolation; auto_relaxed: 2 / (1 - 0.98). */
 static double longest_step(const spt_method *method) {
-    if (method == spt_relaxed()) return 1.2;
-    if (method == spt_enhanced()) return 1.0 + 0.88 * 99.0;
+    const spt_settings settings = spt_settings_default();
+    if (method == spt_relaxed()) return (double)settings.relaxation;
+    if (method == spt_enhanced()) return 1.0 + (double)settings.extrapolation * 99.0;
     if (method == spt_auto_relaxed()) return 100.0;
-    if (method == spt_adaptive()) return 3.0;
+    if (method == spt_adaptive()) return (double)settings.step_cap;
     return 1.0;
 }
 
