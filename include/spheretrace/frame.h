@@ -223,8 +223,8 @@ SPT_API spt_status spt_frame_restart(const spt_frame *frame, void *state, size_t
  *   image     sinks for the region, written by the last pass, each pixel once its chunk is
  *             finished; or NULL
  *   progress  receives how far it is, or NULL
- * A pass of lower resolution walks a cone for every pixel of it and traces the ray in its middle,
- * with a pixel_radius as much larger as its pixels are;
+ * A pass of lower resolution walks a cone for every pixel of it and, where there is frame->shade to
+ * colour it, traces the ray in its middle, with a pixel_radius as much larger as its pixels are;
  * each ray of the next pass starts at the least t of all cones that its pixel overlaps, so that
  * resolutions need not divide one another (section 4 of the paper takes the closest one, which
  * loses pixels). Begins anew by itself when the camera, the settings, the size or the passes of the

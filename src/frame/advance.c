@@ -51,6 +51,11 @@ static void open_rays(spti_state *state) {
     spti_desk_open(state->desk, inherits(state) ? state->starts : NULL);
 }
 
+/* Of a coarse pass that nobody colours only the cones live on. */
+static int shows_rays(const spti_state *state) {
+    return state->pass + 1 == state->pass_count || state->job.frame.shade != NULL;
+}
+
 /* Begins the next chunk, and its tile if it is the first one of that. */
 static void open_chunk(spti_state *state) {
     uint32_t column, row;
@@ -80,8 +85,8 @@ static int work_on(spti_state *state) {
     if (state->stage == STAGE_PIXELS) {
         const int keeps = spti_keeps_cones(state, state->pass);
         if (keeps && !spti_desk_pixel_cones(desk, state->pixel_t)) return 0;
-        spti_desk_enter(desk);
-        state->stage = STAGE_RAYS;
+        if (shows_rays(state)) spti_desk_enter(desk);
+        state->stage = shows_rays(state) ? STAGE_RAYS : STAGE_DONE;
     }
     if (state->stage == STAGE_RAYS) {
         if (!spti_union_run(&desk->lazy)) return 0;
@@ -140,7 +145,8 @@ static void close_chunk(spti_state *state, const spt_hits *image) {
         if (level->free_t != NULL) level->free_t[spti_desk_place_of(desk, i)] = state->pixel_t[i];
     }
     if (state->job.frame.shade != NULL) shade_chunk(state);
-    spti_desk_write(desk, state->pass + 1 == state->pass_count && image != NULL ? image : NULL);
+    if (!shows_rays(state)) return;
+    spti_desk_write(desk, state->pass + 1 == state->pass_count ? image : NULL);
 }
 
 /* ---- Calls ---------------------------------------------------------------------------------- */

@@ -39,7 +39,7 @@ advance advance_begin(spt_frame *frame, int which, spt_hit *hits) {
     advance a;
     spt_status status;
     memset(&a.progress, 0, sizeof a.progress);
-    a.cones = 0;
+    a.cones = a.rays = 0;
     a.frame = frame;
     a.state = frame_state(frame, which, &a.size);
     a.hits = hits;
@@ -70,6 +70,7 @@ void advance_step(advance *a, uint64_t evaluations) {
                                a->hits != NULL ? &sinks : NULL, &a->progress);
     a->frame->statistics = theirs;
     a->cones += own.cone_evaluations;
+    a->rays += own.rays;
     CHECK_SAY(status == SPT_OK, "advance: %s", spt_status_name(status));
     CHECK(a->progress.restarted == 0);
     CHECK(a->progress.pass >= before.pass && a->progress.pass <= passes_of(a->frame));

@@ -35,6 +35,7 @@ typedef struct advance {
     spt_hit *hits; /* of the region, or NULL */
     spt_frame_progress progress;
     uint64_t cones; /* evaluations of cones so far */
+    uint64_t rays;  /* traced to their end so far */
 } advance;
 
 /* Blank hits and a state just begun. which: 0 .. 3, the memory of the state. */

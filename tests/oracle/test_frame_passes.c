@@ -157,6 +157,33 @@ static void frame_passes_one_is_the_frame(void) {
     }
 }
 
+/* Coarse passes trace their rays only where somebody colours them, and the last pass has the same
+ * bits either way: their cones are the same. */
+static void frame_passes_unseen(void) {
+    for (size_t i = 0; i < scene_count; ++i) {
+        for (int j = 0; j < schedule_count; ++j) {
+            uint64_t every = 0;
+            advance unseen, shaded;
+            view_of(&shown_view, scenes[i], SCENE_OBJECTS, 60, 34, 26);
+            schedule_set(&shown_view.frame, &schedules[j]);
+            check_context("%s, schedule %s", scenes[i]->name, schedules[j].name);
+            for (size_t pass = 0; pass < schedules[j].count; ++pass) {
+                every += (uint64_t)schedule_size(34, &schedules[j].passes[pass]) *
+                         schedule_size(26, &schedules[j].passes[pass]);
+            }
+            unseen = advance_begin(&shown_view.frame, 0, others);
+            advance_finish(&unseen, 1u << 30);
+            shade_log_open(&seen, &shown_view.frame, NULL);
+            shaded = advance_begin(&shown_view.frame, 0, hits);
+            advance_finish(&shaded, 1u << 30);
+            frame_same(&shown_view.frame, hits, others, "unseen passes");
+            CHECK_SAY(unseen.rays == 34 * 26, "%lu rays", (unsigned long)unseen.rays);
+            CHECK_SAY(shaded.rays == every, "%lu rays", (unsigned long)shaded.rays);
+            CHECK(shaded.cones == unseen.cones);
+        }
+    }
+}
+
 /* A window of a large image: the same pixels as the frame finds, by the answer. */
 static void frame_passes_window(void) {
     static const char *const names[] = {"primitives", "village", "thin_torus", "mandelbulb"};
@@ -246,6 +273,7 @@ void suite_frame_passes(void) {
     RUN(frame_passes_scenes_even);
     RUN(frame_passes_scenes_odd);
     RUN(frame_passes_one_is_the_frame);
+    RUN(frame_passes_unseen);
     RUN(frame_passes_window);
     RUN(Q15_passes_of_any_camera);
 }
