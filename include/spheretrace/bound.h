@@ -209,8 +209,8 @@ static inline spt_bound spt_bound_callback(spt_interval_batch_fn *batch, spt_int
  *   t_in, t_out        receive the interval; for a ray that stays outside t_in = +infinity and
  *                      t_out = -infinity. Neither may be NULL
  * The interval is closed (a ray that touches is inside) and never narrower than the true one. It is
- * that of a larger volume; with e = 2^-22 and v the distance of the origin from center (slab,
- * polytope: from (0, 0, 0)):
+ * that of a larger volume, up to the rounding of the ends themselves; with e = 2^-22 and
+ * v the distance of the origin from center (slab, polytope: from (0, 0, 0)):
  *   box                  faces move out by e (|origin|_inf + largest coordinate)
  *   sphere               the radius grows by e (|origin|_inf + v)
  *   slab, polytope,      a face moves out by at most 4 e (v + t |direction| + what it is away from
