@@ -217,7 +217,8 @@ SPTI_INLINE void march_move(const march_constants *all, const march_sample *samp
 }
 
 /* Keeps a rejected probe that was outside, and goes to the kept one, at no evaluation, as soon as
- * the certified sphere meets its own (the "trivial extension" of Keinert et al. 2014, 3.1). */
+ * the certified sphere meets its own (the "trivial extension" of Keinert et al. 2014, 3.1). The
+ * sample's pair becomes that of the leap where there is one. */
 SPTI_INLINE void march_leap(const march_constants *all, const march_rays *rays, unsigned wants,
                             march_sample *sample, march_state *ray, march_audit *audit) {
     const spt_wide zero = spt_splat(0.0f);
@@ -230,15 +231,16 @@ SPTI_INLINE void march_leap(const march_constants *all, const march_rays *rays, 
     const spt_wide leap = spt_sub(ray->pending_t, ray->t);
     const spt_mask ahead = spti_less_in(spti_mask_not(sample->settled), ray->t, ray->pending_t);
     const spt_mask leaps = march_overlap(all, ahead, ray->radius, radius, leap, floor);
-    spti_pair pair = {spt_max(leap, spt_splat(FLT_MIN)), ray->radius, radius};
-    const spti_pair leapt = pair;
-    if (wants & SPTI_WANT_SLOPE) march_slope(&pair, floor, leaps, audit);
-    if (!rule_blends) {
-        pair.step = spt_select(leaps, pair.step, sample->pair.step);
-        pair.before = spt_select(leaps, pair.before, sample->pair.before);
-        pair.after = spt_select(leaps, pair.after, sample->pair.after);
+    const spti_pair leapt = {spt_max(leap, spt_splat(FLT_MIN)), ray->radius, radius};
+    if (wants & SPTI_WANT_SLOPE) march_slope(&leapt, floor, leaps, audit);
+    if (rule_blends) {
+        march_accept(all, &leapt, leaps, ray);
+    } else {
+        sample->pair.step = spt_select(leaps, leapt.step, sample->pair.step);
+        sample->pair.before = spt_select(leaps, leapt.before, sample->pair.before);
+        sample->pair.after = spt_select(leaps, leapt.after, sample->pair.after);
+        sample->moved = spt_mask_or(sample->moved, leaps);
     }
-    march_accept(all, &pair, rule_blends ? leaps : spt_mask_or(sample->moved, leaps), ray);
     ray->t = spt_select(leaps, ray->pending_t, ray->t);
     ray->value = spt_select(leaps, ray->pending_value, ray->value);
     ray->radius = spt_select(leaps, radius, ray->radius);
@@ -303,7 +305,12 @@ SPTI_INLINE void march_vector(spti_chunk *chunk, const march_constants *all, siz
         audit.candidate_ratio = march_load(chunk, SPTI_CANDIDATE_RATIO, at);
         march_candidate(all, &rays, &sample.pair, &ray, number, &audit);
     }
-    if (rule_pending) march_leap(all, &rays, wants, &sample, &ray, &audit);
+    if (rule_pending) {
+        /* Most vectors have no ray that keeps a probe, and leave it at that; nothing would change. */
+        const spt_mask keeps = spt_mask_or(sample.rejected, spt_less(ray.t, ray.pending_t));
+        if (spt_any(keeps)) march_leap(all, &rays, wants, &sample, &ray, &audit);
+        if (!rule_blends) march_accept(all, &sample.pair, sample.moved, &ray);
+    }
 
     march_add_fate(&fates->finished, sample.settled, shift);
     march_add_fate(&fates->hit, sample.hit, shift);
