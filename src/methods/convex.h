@@ -23,8 +23,11 @@ SPTI_INLINE spt_wide rule_step(const spti_parameters *parameters, const spti_sta
     const spt_wide drop = spt_add(spt_sub(memory[1], at->radius), spt_add(margin, margin));
     const spt_mask secant = spt_mask_and(at->outside, spt_less(zero, memory[0]));
     const spt_mask falling = spt_mask_and(secant, spt_less(zero, drop));
-    const spt_wide divisor = spt_max(drop, spt_splat(FLT_MIN));
-    const spt_wide step = spt_div(spt_mul(spt_sub(at->radius, margin), memory[0]), divisor);
+    const spt_wide least = spt_splat(FLT_MIN);
+    /* A ratio first: the product of two lengths underflows in scenes of 1e-16. The first step's zero
+     * must not meet an infinite one. */
+    const spt_wide ratio = spt_div(spt_sub(at->radius, margin), spt_max(drop, least));
+    const spt_wide step = spt_mul(ratio, spt_max(memory[0], least));
     (void)parameters;
     *missed = spt_mask_and_not(secant, falling);
     return spt_select(falling, step, at->radius);

@@ -86,7 +86,7 @@ static const spti_glsl_piece spti_glsl_march_parts[] = {
      "                 float scale, out bool rising) {\n"
      "    $precise float margin = 0.5 * floor_here;\n"
      "    $precise float drop = (last_radius - radius) + (margin + margin);\n"
-     "    $precise float root = ((radius - margin) * last_step) / max(drop, 1.17549435e-38);\n"
+     "    $precise float root = (radius - margin) / max(drop, 1.17549435e-38) * last_step;\n"
      "    bool secant = scale > 0.0 && last_step > 0.0;\n"
      "    rising = secant && !(drop > 0.0);\n"
      "    return secant && drop > 0.0 ? root : radius;\n"
