@@ -112,6 +112,50 @@ static void C2c_scene_times_power_of_two(void) {
     }
 }
 
+/* A box whose distance is computed in double; data is the exponent that its size is scaled by. */
+static float scaled_box(const void *data, float x, float y, float z) {
+    const double size = ldexp(1.0, *(const int *)data), p[3] = {(double)x, (double)y, (double)z};
+    static const double center[3] = {0.75, 0.0, 3.5}, half[3] = {0.5, 0.375, 0.25};
+    double outside = 0, inside = -INFINITY;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double beyond = fabs(p[axis] / size - center[axis]) - half[axis];
+        outside += beyond > 0 ? beyond * beyond : 0;
+        inside = beyond > inside ? beyond : inside;
+    }
+    return (float)((sqrt(outside) + (inside < 0 ? inside : 0)) * size);
+}
+
+/* A ray that comes to the box at a small angle: secant steps multiplied two lengths, whose product
+ * underflowed in a scene of 2^-60. */
+static void C2e_box_times_power_of_two(void) {
+    static const spt_ray unit = {{-0.0190317966f, 0.245150536f, 0.0701427385f},
+                                 0.00732933683f,
+                                 {0.162791595f, -0.0130525772f, 0.986574113f},
+                                 8.0f};
+    for (stress_way way = stress_ways(STRESS_CONVEX); stress_next(&way);) {
+        spt_hit expected = {0};
+        for (int k = 0; k <= 120; ++k) { /* 0, -1 .. -60, 1 .. 60 */
+            const int power = k <= 60 ? -k : k - 60;
+            stress_case what = stress_case_of(scaled_box, &power);
+            what.settings.epsilon = stress_scaled(what.settings.epsilon, power);
+            what.ray = unit;
+            what.ray.t_min = stress_scaled(unit.t_min, power);
+            what.ray.t_max = stress_scaled(unit.t_max, power);
+            for (int axis = 0; axis < 3; ++axis) {
+                what.ray.origin[axis] = stress_scaled(unit.origin[axis], power);
+            }
+            spt_hit hit = stress_run(&way, &what, NULL);
+            hit.t = stress_scaled(hit.t, -power);
+            hit.residual = stress_scaled(hit.residual, -power);
+            hit.candidate_t = stress_scaled(hit.candidate_t, -power);
+            if (k == 0) expected = hit;
+            CHECK(expected.outcome == SPT_HIT);
+            CHECK_SAY(stress_same_hit(&hit, &expected), "2^%d: t %.9g, %u evaluations", power,
+                      (double)hit.t, (unsigned)hit.evaluations);
+        }
+    }
+}
+
 static spt_hit passing_hit(const stress_way *way, const stress_case *what) {
     stress_probe probe;
     spt_hit hit;
@@ -206,6 +250,7 @@ void suite_scale(void) {
     RUN(C2_small_scene);
     RUN(C2c_scene_times_power_of_two);
     RUN(C2d_passing_times_power_of_two);
+    RUN(C2e_box_times_power_of_two);
     RUN(C3_huge_spheres);
     RUN(C4_tiny_spheres);
     RUN(C6_far_spheres);
