@@ -125,9 +125,11 @@ SPTI_INLINE void march_accept(const march_constants *all, const spti_pair *pair,
     }
 }
 
-/* The point to evaluate next, for rays that go on. */
+/* The point to evaluate next, for rays that go on. pending is a constant: 0 where no ray of the pass
+ * keeps a probe. */
 SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays *rays,
-                                   const march_state *ray, spt_mask rejected, spt_mask *missed) {
+                                   const march_state *ray, int pending, spt_mask rejected,
+                                   spt_mask *missed) {
     const spt_mask inside = spt_less(rays->scale, spt_splat(0.0f));
     const spti_standing standing = {ray->radius, ray_floor(rays->floor_at_0, ray->t),
                                     spti_mask_not(inside)};
@@ -144,12 +146,12 @@ SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays 
     if (rule_needs_convex) *missed = spt_mask_or(*missed, rising);
     step = spt_max(spt_min(step, spt_sub(rays->t_max, ray->t)), ray->radius);
     step = spt_select(rejected, ray->radius, step);
-    if (rule_pending) {
+    if (pending) {
         /* A probe beyond where the pending sphere begins is certified by that or not at all. */
         const spt_wide pending_radius = spt_mul(ray->pending_value, rays->scale);
         const spt_wide begins = spt_sub(ray->pending_t, pending_radius);
-        const spt_mask pending = spt_less(ray->t, ray->pending_t);
-        const spt_mask beyond = spti_less_in(pending, begins, spt_add(ray->t, step));
+        const spt_mask ahead = spt_less(ray->t, ray->pending_t);
+        const spt_mask beyond = spti_less_in(ahead, begins, spt_add(ray->t, step));
         step = spt_select(beyond, ray->radius, step);
     }
     return spt_min(spt_add(ray->t, step), rays->t_max);
@@ -259,18 +261,12 @@ SPTI_INLINE void march_load_state(const spti_chunk *chunk, size_t at, spt_wide s
     ray->radius = spt_mul(ray->value, scale);
     ray->memory[0] = rule_memory > 0 ? march_load(chunk, SPTI_MEMORY, at) : zero;
     ray->memory[1] = rule_memory > 1 ? march_load(chunk, SPTI_MEMORY + 1, at) : zero;
-    ray->pending_t = rule_pending ? march_load(chunk, SPTI_PENDING_T, at) : zero;
-    ray->pending_value = rule_pending ? march_load(chunk, SPTI_PENDING_VALUE, at) : zero;
 }
 
 SPTI_INLINE void march_store_state(spti_chunk *chunk, size_t at, const march_state *ray) {
     march_store(chunk, SPTI_T, at, ray->t);
     march_store(chunk, SPTI_VALUE, at, ray->value);
     for (int i = 0; i < rule_memory; ++i) march_store(chunk, SPTI_MEMORY + i, at, ray->memory[i]);
-    if (rule_pending) {
-        march_store(chunk, SPTI_PENDING_T, at, ray->pending_t);
-        march_store(chunk, SPTI_PENDING_VALUE, at, ray->pending_value);
-    }
 }
 
 /* The points at t, to be evaluated next. */
@@ -280,9 +276,10 @@ SPTI_INLINE void march_store_points(spti_chunk *chunk, size_t at, spt_wide t) {
     }
 }
 
-/* One vector. wants is a constant. Adds the fates at `shift`, the vector's place in its group. */
-SPTI_INLINE void march_vector(spti_chunk *chunk, const march_constants *all, size_t at,
-                              unsigned shift, unsigned wants, spti_fates *fates) {
+/* One vector. wants is a constant. Adds the fates at `shift`, the vector's place in its group.
+ * Returns whether any of its rays keeps a probe. */
+SPTI_INLINE int march_vector(spti_chunk *chunk, const march_constants *all, size_t at,
+                             unsigned shift, unsigned wants, spti_fates *fates) {
     const march_rays rays = {march_load(chunk, SPTI_SCALE, at), march_load(chunk, SPTI_T_MAX, at),
                              march_load(chunk, SPTI_EPSILON, at), march_load(chunk, SPTI_PATH, at),
                              march_load(chunk, SPTI_FLOOR_AT_0, at)};
@@ -305,10 +302,17 @@ SPTI_INLINE void march_vector(spti_chunk *chunk, const march_constants *all, siz
         audit.candidate_ratio = march_load(chunk, SPTI_CANDIDATE_RATIO, at);
         march_candidate(all, &rays, &sample.pair, &ray, number, &audit);
     }
+    int keeps = 0;
     if (rule_pending) {
         /* Most vectors have no ray that keeps a probe, and leave it at that; nothing would change. */
-        const spt_mask keeps = spt_mask_or(sample.rejected, spt_less(ray.t, ray.pending_t));
-        if (spt_any(keeps)) march_leap(all, &rays, wants, &sample, &ray, &audit);
+        ray.pending_t = march_load(chunk, SPTI_PENDING_T, at);
+        keeps = spt_any(spt_mask_or(sample.rejected, spt_less(ray.t, ray.pending_t)));
+        if (keeps) {
+            ray.pending_value = march_load(chunk, SPTI_PENDING_VALUE, at);
+            march_leap(all, &rays, wants, &sample, &ray, &audit);
+            march_store(chunk, SPTI_PENDING_T, at, ray.pending_t);
+            march_store(chunk, SPTI_PENDING_VALUE, at, ray.pending_value);
+        }
         if (!rule_blends) march_accept(all, &sample.pair, sample.moved, &ray);
     }
 
@@ -328,13 +332,14 @@ SPTI_INLINE void march_vector(spti_chunk *chunk, const march_constants *all, siz
         march_store(chunk, SPTI_CANDIDATE_T, at, audit.candidate_t);
         march_store(chunk, SPTI_CANDIDATE_RATIO, at, audit.candidate_ratio);
     }
+    return keeps;
 }
 
 /* The second half of a pass, in a loop of its own: one chain of dependent operations from sample to
  * next point is longer than what a processor looks ahead. What the first half found out it sees by
  * the probe: a rejected one is still beyond the certified sphere. */
-SPTI_INLINE void march_on(spti_chunk *chunk, const march_constants *all, size_t at, unsigned shift,
-                          spti_fates *fates) {
+SPTI_INLINE void march_on(spti_chunk *chunk, const march_constants *all, int pending, size_t at,
+                          unsigned shift, spti_fates *fates) {
     const spt_wide zero = spt_splat(0.0f);
     const march_rays rays = {march_load(chunk, SPTI_SCALE, at), march_load(chunk, SPTI_T_MAX, at),
                              zero, zero, march_load(chunk, SPTI_FLOOR_AT_0, at)};
@@ -342,10 +347,14 @@ SPTI_INLINE void march_on(spti_chunk *chunk, const march_constants *all, size_t 
     const spt_wide sampled = spt_mul(spt_load(&chunk->distance[at]), rays.scale);
     march_state ray;
     march_load_state(chunk, at, rays.scale, &ray);
+    if (pending) {
+        ray.pending_t = march_load(chunk, SPTI_PENDING_T, at);
+        ray.pending_value = march_load(chunk, SPTI_PENDING_VALUE, at);
+    }
     const spt_mask rejected =
         rule_probes ? spt_less(spt_add(ray.t, ray.radius), probe) : spt_mask_splat(0);
     spt_mask missed;
-    const spt_wide next = march_propose(all, &rays, &ray, rejected, &missed);
+    const spt_wide next = march_propose(all, &rays, &ray, pending, rejected, &missed);
     march_add_fate(&fates->missed, missed, shift);
     march_add_fate(&fates->finished, spt_mask_or(missed, spti_mask_not(spt_less(ray.t, next))),
                    shift);
@@ -353,6 +362,26 @@ SPTI_INLINE void march_on(spti_chunk *chunk, const march_constants *all, size_t 
     /* A bracket is closed between t and the probe that crossed. */
     const spt_mask crossed = spti_less_in(spti_mask_not(rejected), sampled, zero);
     march_store(chunk, SPTI_PROBE, at, spt_select(crossed, probe, next));
+}
+
+/* Returns whether any ray finished. pending is a constant. */
+SPTI_INLINE int march_all_on(spti_chunk *chunk, const march_constants *all, size_t count,
+                             int pending) {
+    unsigned any = 0;
+    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
+        spti_fates fates = chunk->fates[group];
+        const unsigned settled = fates.finished;
+        const size_t left = count - group * SPTI_GROUP;
+        for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
+            march_on(chunk, all, pending, group * SPTI_GROUP + shift, shift, &fates);
+        }
+        fates.missed = (uint16_t)(fates.missed & ~settled);
+        /* Lanes behind the last ray hold nothing. */
+        if (left < SPTI_GROUP) fates.finished &= (uint16_t)((1u << left) - 1u);
+        chunk->fates[group] = fates;
+        any |= fates.finished;
+    }
+    return any != 0;
 }
 
 /* One pass; see spti_march_fn. wants is a constant of SPTI_WANT_*. */
@@ -365,29 +394,17 @@ SPTI_INLINE int march_pass(spti_chunk *chunk, const spti_march *march, size_t co
                                  spt_mask_splat(first),
                                  march->between,
                                  spt_splat(march->inverse_lipschitz)};
-    unsigned any = 0;
+    int keeps = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         spti_fates fates = {0, 0, 0, 0, 0, 0, 0};
         /* The whole group: its padding goes where the ray goes that it repeats. */
         for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
-            march_vector(chunk, &all, group * SPTI_GROUP + shift, shift, wants, &fates);
+            keeps |= march_vector(chunk, &all, group * SPTI_GROUP + shift, shift, wants, &fates);
         }
         chunk->fates[group] = fates;
     }
-    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
-        spti_fates fates = chunk->fates[group];
-        const unsigned settled = fates.finished;
-        const size_t left = count - group * SPTI_GROUP;
-        for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
-            march_on(chunk, &all, group * SPTI_GROUP + shift, shift, &fates);
-        }
-        fates.missed = (uint16_t)(fates.missed & ~settled);
-        /* Lanes behind the last ray hold nothing. */
-        if (left < SPTI_GROUP) fates.finished &= (uint16_t)((1u << left) - 1u);
-        chunk->fates[group] = fates;
-        any |= fates.finished;
-    }
-    return any != 0;
+    if (rule_pending && keeps) return march_all_on(chunk, &all, count, 1);
+    return march_all_on(chunk, &all, count, 0);
 }
 
 #endif
