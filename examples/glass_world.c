@@ -82,7 +82,7 @@ static void facet_gradient(void *user, size_t n, const float *restrict x, const 
     }
 }
 
-spt_field glass_field(glass_world *world, int lanes) {
+spt_field glass_world_field(glass_world *world, int lanes) {
     spt_field field = scene_field(world->body, lanes);
     if (world->facet_count > 0) {
         field.gradient = facet_gradient;
@@ -156,7 +156,8 @@ float glass_meet(const glass_world *world, const float origin[3], const float di
     return nearest;
 }
 
-void glass_normal(const glass_world *world, int object, const float point[3], float normal[3]) {
+void glass_world_normal(const glass_world *world, int object, const float point[3],
+                        float normal[3]) {
     normal[0] = normal[2] = 0.0f;
     normal[1] = 1.0f;
     if (object < 0) return;

@@ -62,7 +62,7 @@ int glass_world_named(const char *name, glass_world *world);
 /* The field of the body, for a width as scene_field() takes it. The normals of a body with facets
  * are theirs; differences would round its edges, which shows where they turn up in refractions. The
  * field points into the world. */
-spt_field glass_field(glass_world *world, int lanes);
+spt_field glass_world_field(glass_world *world, int lanes);
 
 /* The same world without ground, matt surfaces and absorption, in light of 1 from everywhere. balls is
  * room for all. */
@@ -76,7 +76,8 @@ float glass_meet(const glass_world *world, const float origin[3], const float di
                  int from, int inside, int *object);
 
 /* The outward normal of a ball or the ground. */
-void glass_normal(const glass_world *world, int object, const float point[3], float normal[3]);
+void glass_world_normal(const glass_world *world, int object, const float point[3],
+                        float normal[3]);
 
 /* The light that a ray of this unit direction sees if it meets nothing more: of the sky with the
  * sun's glow, or of the ground on average. */

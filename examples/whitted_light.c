@@ -17,7 +17,7 @@ void whitted_shade(whitted_work *work, const whitted_ray *ray, int object, const
     memcpy(at.position, point, sizeof at.position);
     memcpy(at.view, ray->ray.direction, sizeof at.view);
     if (object == GLASS_GROUND) at.position[1] = work->world->ground;
-    glass_normal(work->world, object, at.position, at.normal);
+    glass_world_normal(work->world, object, at.position, at.normal);
     const float slope = spt_greatest(fabsf(light_dot(at.view, at.normal)), 1e-3f);
     at.footprint = 2.0f * work->pixel_radius * way / slope;
     glass_shade(work->world, &at, by_sun, rest);
@@ -68,7 +68,7 @@ static int pass_balls(const glass_world *world, whitted_ray *shadow) {
         if (object < 0) return 1;
         if (world->balls[object].material.surface != GLASS_CLEAR) return 0;
         for (int axis = 0; axis < 3; ++axis) point[axis] += t * shadow->ray.direction[axis];
-        glass_normal(world, object, point, normal);
+        glass_world_normal(world, object, point, normal);
         pass_surface(shadow, normal, world->balls[object].material.index);
         if (inside == object) pass_inside(shadow, &world->balls[object].material, t);
         inside = inside == object ? GLASS_NOTHING : object;

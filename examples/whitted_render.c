@@ -180,7 +180,7 @@ int whitted_render(glass_world *world, const whitted_settings *settings, int wid
     job.width = (uint32_t)width;
     job.height = (uint32_t)height;
     job.camera = scene_camera(world->body, job.width, job.height);
-    job.field = glass_field(world, most != 0 && most < lanes ? most : lanes);
+    job.field = glass_world_field(world, most != 0 && most < lanes ? most : lanes);
     job.pixel_radius = (job.camera.x_high - job.camera.x_low) / (2.0f * (float)width);
     job.pixels = pixels;
     job.statistics = statistics;

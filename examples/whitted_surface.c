@@ -166,7 +166,7 @@ static void leave_ball(whitted_work *work, whitted_ray *ray, int object, const f
     const glass_material *const material = &work->world->balls[object].material;
     const int is_inside = ray->inside == object;
     float normal[3];
-    glass_normal(work->world, object, point, normal);
+    glass_world_normal(work->world, object, point, normal);
     if (is_inside) absorb(ray, material, ray->ray.t_max);
     whitted_split split = whitted_split_at(ray->ray.direction, normal, material->index, is_inside);
     if (material->surface == GLASS_MIRROR) split.reflectance = 1.0f;

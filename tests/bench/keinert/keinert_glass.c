@@ -235,7 +235,7 @@ static int trace_world(const bench_options *options, FILE *file, const char *nam
     glass_world world;
     keinert_record record;
     if (!glass_world_named(name, &world)) return 0;
-    const spt_field field = glass_field(&world, spt_lanes());
+    const spt_field field = glass_world_field(&world, spt_lanes());
     keinert_record_rays(&world, &field, options->width, options->height, step, &record);
     const int first = hold(options, file, &whole, &world, &record);
     const int second = hold(options, file, &inside, &world, &record);

@@ -6,6 +6,24 @@
 #include <math.h>
 #include <string.h>
 
+krs_line krs_line_through(const double *x, const double *y, int count) {
+    double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
+    krs_line line;
+    for (int i = 0; i < count; ++i) {
+        mean_x += x[i] / count;
+        mean_y += y[i] / count;
+    }
+    for (int i = 0; i < count; ++i) {
+        xx += (x[i] - mean_x) * (x[i] - mean_x);
+        xy += (x[i] - mean_x) * (y[i] - mean_y);
+        yy += (y[i] - mean_y) * (y[i] - mean_y);
+    }
+    line.slope = xy / xx;
+    line.offset = mean_y - line.slope * mean_x;
+    line.straight = xy * xy / (xx * yy);
+    return line;
+}
+
 void krs_begin_row(FILE *file, const char *name, uint32_t levels, int components,
                    double instances) {
     fprintf(file, "%s,%u,%d,%.0f", name, (unsigned)levels, components, instances);
