@@ -64,12 +64,17 @@ METHODS := $(shell sed -n 's/^ *X(\([a-z_]*\)).*/\1/p' src/methods/methods.h)
 # The byte shuffle of SSSE3 serves the compaction only.
 MARCH_ISAS := $(filter-out ssse3,$(ISAS))
 
-# Kernels of a room that are built once for every instruction set: src/backend/NAME.c.
-KERNELS := chunk union cone krs distort
+# Kernels of a room that are built once for every instruction set, or those of chunk_table.c:
+# src/backend/NAME.c.
+KERNELS := prepare compact union cone krs distort
+compact_isas := $(filter-out sse2,$(ISAS))
+prepare_isas := $(filter-out ssse3 $(if $(filter sse2,$(ISAS)),scalar),$(ISAS))
+isas_of = $(or $($(1)_isas),$(ISAS))
 PLAIN := $(filter-out src/backend/march.c src/backend/method.c $(KERNELS:%=src/backend/%.c),\
            $(wildcard src/*/*.c))
 OBJECTS := $(PLAIN:src/%.c=$B/src/%.o) \
-           $(foreach kernel,$(KERNELS),$(ISAS:%=$B/src/backend/$(kernel)_%.o)) \
+           $(foreach kernel,$(KERNELS),\
+             $(patsubst %,$B/src/backend/$(kernel)_%.o,$(call isas_of,$(kernel)))) \
            $(METHODS:%=$B/src/methods/%.o) \
            $(foreach method,$(METHODS),$(MARCH_ISAS:%=$B/src/methods/$(method)_%.o))
 
@@ -100,7 +105,8 @@ $B/src/backend/$(1)_$(2).o: src/backend/$(1).c $B/setup
 	$$(call SAY,$$@)
 	$$(Q)$$(COMPILE) -fPIC $$(HAVE) $$(flags_$(2)) -DSPTI_ISA=$(2) $$(CFLAGS) $$(KEEP) -c $$< -o $$@
 endef
-$(foreach kernel,$(KERNELS),$(foreach isa,$(ISAS),$(eval $(call kernel_object,$(kernel),$(isa)))))
+$(foreach kernel,$(KERNELS),$(foreach isa,$(call isas_of,$(kernel)),\
+  $(eval $(call kernel_object,$(kernel),$(isa)))))
 
 # $(1) step rule
 define method_object
@@ -122,6 +128,16 @@ $B/src/methods/$(1)_$(2).o: src/backend/march.c $B/setup
 endef
 $(foreach method,$(METHODS),$(foreach isa,$(MARCH_ISAS),\
   $(eval $(call march_object,$(method),$(isa)))))
+
+# What every program carries is to be small: the kernels' loops are not unrolled, which gains them
+# nothing, and what runs once a call or once a ray is compiled for size.
+CHUNK := $(foreach kernel,prepare compact,\
+           $(patsubst %,$B/src/backend/$(kernel)_%.o,$(call isas_of,$(kernel))))
+MARCH := $(foreach method,$(METHODS),$(MARCH_ISAS:%=$B/src/methods/$(method)_%.o))
+SMALL := backend/isa bound/bound_check bound/volume trace/leave trace/narrow trace/special \
+         trace/trace
+$(MARCH) $(CHUNK) $B/src/trace/chunk.o: COMPILE := $(subst -O3,-O2 -fno-unroll-loops,$(COMPILE))
+$(SMALL:%=$B/src/%.o): COMPILE := $(subst -O3,-Os,$(COMPILE))
 
 $(STATIC): $(OBJECTS)
 	@rm -f $@

@@ -118,7 +118,7 @@ lean() {
   [ "$(grep -c 'if (wants' src/trace/march_kernel.h)" -ge 6 ] || echo "there is nothing to cut"
   for rule in $(sed -n 's/^ *X(\([a-z_]*\)).*/\1/p' src/methods/methods.h); do
     for isa in 1 '4 -msse2' '8 -mavx2' '16 -mavx512f'; do
-      flags="-std=c99 -O3 -ffp-contract=off -fno-math-errno -fPIC -DSPTI_MARCH=table
+      flags="-std=c99 -O2 -ffp-contract=off -fno-math-errno -fPIC -DSPTI_MARCH=table
         -DSPT_LANES=$isa"
       for tree in . "$copy"; do
         cc $flags -DSPTI_RULE="\"../methods/$rule.h\"" -I$tree/include -c $tree/src/backend/march.c \

@@ -7,12 +7,19 @@
 
 #include "../trace/march_kernel.h"
 
+/* The half of a pass that does not depend on what is wanted. */
+static SPTI_NOINLINE int points(spti_chunk *chunk, const spti_march *march, size_t count,
+                                int keeps) {
+    const int any = rule_pending && keeps ? march_points(chunk, march, count, 1)
+                                          : march_points(chunk, march, count, 0);
+    spti_clear_upper();
+    return any;
+}
+
 /* One function for every combination of wanted results; what is not leaves no instruction. */
 #define INSTANCE(wants) \
     static int pass_##wants(spti_chunk *chunk, const spti_march *march, size_t count, int first) { \
-        const int any = march_pass(chunk, march, count, first, wants); \
-        spti_clear_upper(); \
-        return any; \
+        return points(chunk, march, count, march_samples(chunk, march, count, first, wants)); \
     }
 INSTANCE(0)
 INSTANCE(1)
@@ -23,6 +30,15 @@ INSTANCE(5)
 INSTANCE(6)
 INSTANCE(7)
 
+/* A rule without probes has none to count. */
+#define COUNTING(counts, others) (rule_probes ? (counts) : (others))
+
 extern spti_march_fn *const SPTI_MARCH[SPTI_WANTS];
-spti_march_fn *const SPTI_MARCH[SPTI_WANTS] = {pass_0, pass_1, pass_2, pass_3,
-                                               pass_4, pass_5, pass_6, pass_7};
+spti_march_fn *const SPTI_MARCH[SPTI_WANTS] = {pass_0,
+                                               pass_1,
+                                               pass_2,
+                                               pass_3,
+                                               COUNTING(pass_4, pass_0),
+                                               COUNTING(pass_5, pass_1),
+                                               COUNTING(pass_6, pass_2),
+                                               COUNTING(pass_7, pass_3)};

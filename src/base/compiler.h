@@ -12,10 +12,12 @@
 #if defined(__GNUC__)
 #define SPTI_INLINE static inline __attribute__((always_inline))
 #define SPTI_NOINLINE __attribute__((noinline))
+#define SPTI_COLD __attribute__((cold, noinline)) /* runs rarely: small before fast */
 #define SPTI_ALIGNED(bytes) __attribute__((aligned(bytes)))
 #else
 #define SPTI_INLINE static inline
 #define SPTI_NOINLINE
+#define SPTI_COLD
 #define SPTI_ALIGNED(bytes)
 #endif
 

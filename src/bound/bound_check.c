@@ -212,7 +212,8 @@ static void prepare_planes(spt_bound *bound) {
 }
 
 int spti_bound_copy(spt_bound *to, const spt_bound *from) {
-    *to = spt_bound_sphere(0, 0, 0, 1);
+    memset(to, 0, sizeof *to);
+    to->struct_size = sizeof *to;
     if (!spti_copy_sized(to, from, sizeof *to) || !is_good(to)) return 0;
     switch (to->kind) {
     case SPT_BOUND_SPHERE:

@@ -111,6 +111,17 @@ SPTI_INLINE void interval_of_sphere(const spt_bound *bound, const interval_ray *
     *t_out = spt_select(touched, leaves, spt_splat(-INFINITY));
 }
 
+/* Whether a volume lies within a sphere or box that is to be cut with; and whether it is less than
+ * that, as far as the kernels know it. */
+SPTI_INLINE int interval_has_hull(const spt_bound *bound) {
+    return bound->kind == SPT_BOUND_SPHERE || bound->kind == SPT_BOUND_BOX ||
+           bound->kind >= SPT_BOUND_SLAB;
+}
+
+SPTI_INLINE int interval_has_more(const spt_bound *bound) {
+    return bound->kind > SPT_BOUND_BOX && bound->kind != SPT_BOUND_CALLBACK;
+}
+
 /* Of a sphere, or of the box that a copy of any other volume holds (bound_check.h). size is that of
  * the volume. */
 SPTI_INLINE void interval_of_hull(const spt_bound *bound, float size, const interval_ray *ray,

@@ -85,8 +85,8 @@ SPTI_INLINE volume_facing volume_face(const spt_wide normal[3], const spt_wide o
  * is a difference, and by 5u if the other was rounded, too: so the face moves out by 8u of them,
  * and turns out by as much. What rounding does to room and rate after that is relative to t, and
  * the ends are moved by more. */
-SPTI_INLINE void volume_behind(const volume_facing *facing, spt_wide offset,
-                               volume_interval *inside) {
+static SPTI_NOINLINE void volume_behind(const volume_facing *facing, spt_wide offset,
+                                        volume_interval *inside) {
     const spt_wide twice = spt_splat(2 * SPTI_FLOOR);
     const spt_wide margin = spt_mul(twice, spt_add(facing->blur, spt_abs(offset)));
     const spt_wide room = spt_add(spt_sub(offset, facing->place), margin);
@@ -114,21 +114,26 @@ SPTI_INLINE spt_wide volume_normal(const float normal[3], spt_wide to[3]) {
     return unit;
 }
 
+/* Behind a caller's plane; towards: 1, or -1 for the points before it. */
+static SPTI_NOINLINE void volume_plane(const float normal[3], float offset, float towards,
+                                       const interval_ray *ray, volume_interval *inside) {
+    spt_wide scaled[3];
+    const spt_wide unit = spt_mul(volume_normal(normal, scaled), spt_splat(towards));
+    for (int axis = 0; axis < 3; ++axis) scaled[axis] = spt_mul(scaled[axis], spt_splat(towards));
+    const volume_facing facing = volume_face(scaled, ray->origin, ray->direction);
+    volume_behind(&facing, spt_mul(spt_splat(offset), unit), inside);
+}
+
 SPTI_INLINE void volume_slab(const spt_bound *bound, const interval_ray *ray,
                              volume_interval *inside) {
-    spt_wide normal[3];
-    const spt_wide unit = volume_normal(bound->axis[0], normal);
-    volume_between(normal, ray->origin, ray->direction, spt_mul(spt_splat(bound->range[0]), unit),
-                   spt_mul(spt_splat(bound->range[1]), unit), inside);
+    volume_plane(bound->axis[0], bound->range[1], 1.0f, ray, inside);
+    volume_plane(bound->axis[0], bound->range[0], -1.0f, ray, inside);
 }
 
 SPTI_INLINE void volume_polytope(const spt_bound *bound, const interval_ray *ray,
                                  volume_interval *inside) {
     for (size_t i = 0; i < bound->plane_count; ++i) {
-        spt_wide normal[3];
-        const spt_wide unit = volume_normal(bound->planes[i].normal, normal);
-        const volume_facing facing = volume_face(normal, ray->origin, ray->direction);
-        volume_behind(&facing, spt_mul(spt_splat(bound->planes[i].offset), unit), inside);
+        volume_plane(bound->planes[i].normal, bound->planes[i].offset, 1.0f, ray, inside);
     }
 }
 
@@ -195,8 +200,8 @@ SPTI_INLINE spt_wide volume_tube_blur(const spt_wide offset[3], float size) {
     return spt_add(spt_mul(spt_splat(2 * SPTI_FLOOR), distance), spt_splat(4 * SPTI_FLOOR * size));
 }
 
-SPTI_INLINE volume_interval volume_ball(const spt_bound *bound, const float center[3],
-                                        const interval_ray *ray) {
+static SPTI_NOINLINE volume_interval volume_ball(const spt_bound *bound, const float center[3],
+                                                 const interval_ray *ray) {
     spt_wide offset[3];
     volume_interval inside;
     volume_offset(ray, center, offset);
@@ -244,9 +249,9 @@ SPTI_INLINE void volume_ellipsoid(const spt_bound *bound, const interval_ray *ra
 
 /* ---- Any volume ----------------------------------------------------------------------------- */
 
-/* Off the way of spheres and boxes. */
-static SPTI_NOINLINE void interval_of_volume(const spt_bound *bound, float size,
-                                             const interval_ray *ray, volume_interval *inside) {
+/* Of what has more than a hull, that. */
+static SPTI_NOINLINE void interval_of_volume(const spt_bound *bound, const interval_ray *ray,
+                                             volume_interval *inside) {
     *inside = volume_everywhere();
     if (bound->kind == SPT_BOUND_ORIENTED_BOX) {
         volume_oriented_box(bound, ray, inside);
@@ -258,23 +263,21 @@ static SPTI_NOINLINE void interval_of_volume(const spt_bound *bound, float size,
         }
     } else if (bound->kind == SPT_BOUND_ELLIPSOID) {
         volume_ellipsoid(bound, ray, inside);
+    } else if (bound->kind == SPT_BOUND_SLAB) {
+        volume_slab(bound, ray, inside);
     } else {
-        interval_of_box(bound, ray, spt_splat(size), &inside->in, &inside->out);
-        if (bound->kind == SPT_BOUND_SLAB) volume_slab(bound, ray, inside);
-        if (bound->kind == SPT_BOUND_POLYTOPE) volume_polytope(bound, ray, inside);
+        volume_polytope(bound, ray, inside);
     }
 }
 
 /* bound is a copy (bound_check.h), size its spti_bound_size(). */
 SPTI_INLINE void interval_of_bound(const spt_bound *bound, float size, const interval_ray *ray,
                                    spt_wide *t_min, spt_wide *t_max) {
-    if (bound->kind == SPT_BOUND_SPHERE || bound->kind == SPT_BOUND_BOX ||
-        bound->kind == SPT_BOUND_CALLBACK) {
-        interval_of_hull(bound, size, ray, t_min, t_max);
-    } else {
+    if (interval_has_hull(bound)) interval_of_hull(bound, size, ray, t_min, t_max);
+    if (interval_has_more(bound)) {     /* off the way of spheres and boxes */
         const interval_ray copy = *ray; /* only this one need be in memory */
         volume_interval inside;
-        interval_of_volume(bound, size, &copy, &inside);
+        interval_of_volume(bound, &copy, &inside);
         *t_min = spt_max(inside.in, *t_min);
         *t_max = spt_min(inside.out, *t_max);
     }

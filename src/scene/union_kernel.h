@@ -6,6 +6,7 @@
 #ifndef SPTI_UNION_KERNEL_H
 #define SPTI_UNION_KERNEL_H
 
+#include "../bound/volume_kernel.h"
 #include "../trace/compact_kernel.h"
 #include "../trace/prepare_kernel.h"
 #include "union.h"

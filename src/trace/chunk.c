@@ -78,7 +78,10 @@ void spti_ask_groups(const spt_field *field, size_t n, const float *x, const flo
                      const float *z, float *distance) {
     const size_t whole = (n + SPTI_GROUP - 1) / SPTI_GROUP * SPTI_GROUP;
     if (field->batch != NULL) {
-        for (size_t i = 0; i < whole; ++i) distance[i] = NAN;
+        /* In steps of a constant, which compilers vectorise at any level. */
+        for (size_t at = 0; at < whole; at += SPTI_GROUP) {
+            for (size_t i = 0; i < SPTI_GROUP; ++i) distance[at + i] = NAN;
+        }
         field->batch(field->user, whole, x, y, z, distance);
     } else {
         for (size_t i = 0; i < n; ++i) distance[i] = field->point(field->user, x[i], y[i], z[i]);
@@ -114,8 +117,8 @@ void spti_evaluate(const spti_call *call, spti_chunk *chunk, size_t n) {
 
 /* Closes the gaps of a pass that bracketed rays, and moves those to the end of each array once its
  * other rays have made room. Returns how many rays go on; *brackets counts those set aside. */
-static SPTI_NOINLINE size_t set_brackets_aside(const spti_call *call, spti_chunk *chunk,
-                                               size_t count, uint32_t age, size_t *brackets) {
+static SPTI_COLD size_t set_brackets_aside(const spti_call *call, spti_chunk *chunk, size_t count,
+                                           uint32_t age, size_t *brackets) {
     spti_compact_fn *const compact = spti_chunk_kernels_of[call->isa].compact;
     unsigned char slots[SPT_BATCH];
     float kept[SPT_BATCH];
@@ -139,13 +142,10 @@ static SPTI_NOINLINE size_t set_brackets_aside(const spti_call *call, spti_chunk
     return remain;
 }
 
-/* How the listed rays ended. From three masks a group, one for each bit of an outcome's number, so
- * that there is no branch a ray or an outcome. */
-static void name_outcomes(const spti_chunk *chunk, size_t count, spti_leavers *leavers) {
-    struct {
-        uint16_t ones, twos, fours;
-    } bits[SPTI_GROUPS];
-    unsigned others = 0;
+/* Lists the slots of finished rays, but for bracketed ones, in order, and how each ended. From three
+ * masks a group, one for each bit of an outcome's number, so that there is no branch an outcome. */
+static void list_finished(const spti_chunk *chunk, size_t count, spti_leavers *leavers) {
+    size_t listed = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         const spti_fates *fates = &chunk->fates[group];
         const unsigned hit = fates->hit, missed = fates->missed & ~hit;
@@ -153,51 +153,48 @@ static void name_outcomes(const spti_chunk *chunk, size_t count, spti_leavers *l
         const unsigned bad = fates->bad & ~(hit | missed | nonfinite);
         const unsigned stopped = fates->stopped & ~(hit | missed | nonfinite | bad);
         const unsigned limit = ~(hit | missed | nonfinite | bad | stopped);
-        others |= fates->finished & ~(hit | fates->bracketed);
-        bits[group].ones = (uint16_t)(hit | nonfinite | stopped);
-        bits[group].twos = (uint16_t)(limit | nonfinite);
-        bits[group].fours = (uint16_t)(bad | stopped);
+        const unsigned ones = hit | nonfinite | stopped;
+        const unsigned twos = limit | nonfinite, fours = bad | stopped;
+        unsigned ended = fates->finished & ~(unsigned)fates->bracketed;
+        for (; ended != 0; ended &= ended - 1) {
+            const unsigned bit = spti_lowest_bit(ended);
+            const unsigned outcome =
+                (ones >> bit & 1) + 2 * (twos >> bit & 1) + 4 * (fours >> bit & 1);
+            leavers->slots[listed] = (uint16_t)(group * SPTI_GROUP + bit);
+            leavers->outcomes[listed++] = (unsigned char)outcome;
+        }
     }
-    if (!others) memset(leavers->outcomes, SPT_HIT, leavers->count);
-    for (size_t i = 0; others && i < leavers->count; ++i) {
-        const size_t group = leavers->slots[i] / SPTI_GROUP, bit = leavers->slots[i] % SPTI_GROUP;
-        const int one = bits[group].ones >> bit & 1, two = bits[group].twos >> bit & 1;
-        const int four = bits[group].fours >> bit & 1;
-        leavers->outcomes[i] = (unsigned char)(one + 2 * two + 4 * four);
-    }
+    leavers->count = listed;
 }
 
 /* Writes out the finished rays and closes the gaps; returns how many rays go on. Brackets are set
  * aside and counted. */
 static size_t empty_finished(const spti_call *call, spti_chunk *chunk, size_t count, size_t first,
                              uint32_t age, size_t *brackets) {
-    const spti_chunk_kernels *const kernels = &spti_chunk_kernels_of[call->isa];
     spti_leavers leavers;
     unsigned bracketed = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         bracketed |= chunk->fates[group].finished & (unsigned)chunk->fates[group].bracketed;
     }
-    leavers.count = kernels->list(chunk, count, leavers.slots);
+    list_finished(chunk, count, &leavers);
     leavers.age = age;
     leavers.steep = 0;
-    name_outcomes(chunk, count, &leavers);
     call->leave(call, chunk, &leavers, first);
     if (bracketed) return set_brackets_aside(call, chunk, count, age, brackets);
-    return kernels->compact(chunk, call->arrays, call->array_count, count);
+    return spti_chunk_kernels_of[call->isa].compact(chunk, call->arrays, call->array_count, count);
 }
 
 /* What the samples at t_min decide: on which side each ray is. */
 static void start_rays(spti_chunk *chunk, size_t count) {
     float *const scale = chunk->array[SPTI_SCALE];
+    memcpy(chunk->array[SPTI_VALUE], chunk->distance, sizeof chunk->distance);
     for (size_t slot = 0; slot < (count + SPTI_GROUP - 1) / SPTI_GROUP * SPTI_GROUP; ++slot) {
-        const float value = chunk->distance[slot];
-        chunk->array[SPTI_VALUE][slot] = value;
-        scale[slot] = value < 0.0f ? -scale[slot] : scale[slot];
+        scale[slot] = chunk->distance[slot] < 0.0f ? -scale[slot] : scale[slot];
     }
 }
 
 /* The options that change what a first sample means. Returns whether a ray finished. */
-static int apply_start_options(const spti_call *call, spti_chunk *chunk, size_t count) {
+static SPTI_COLD int apply_start_options(const spti_call *call, spti_chunk *chunk, size_t count) {
     unsigned any = 0;
     for (size_t slot = 0; slot < count; ++slot) {
         spti_fates *fates = &chunk->fates[slot / SPTI_GROUP];
@@ -218,7 +215,7 @@ static int apply_start_options(const spti_call *call, spti_chunk *chunk, size_t 
 }
 
 /* Ends the rays whose budget is used up. Returns whether there was one. */
-static int expire(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t age) {
+static SPTI_COLD int expire(const spti_call *call, spti_chunk *chunk, size_t count, uint32_t age) {
     int any = 0;
     for (size_t slot = 0; slot < count; ++slot) {
         if (age + spti_spent(chunk, slot) >= call->settings.budget) {
@@ -230,7 +227,7 @@ static int expire(const spti_call *call, spti_chunk *chunk, size_t count, uint32
 }
 
 /* Sets all rays aside that are not finished. */
-static void stop_all(spti_chunk *chunk, size_t count) {
+static SPTI_COLD void stop_all(spti_chunk *chunk, size_t count) {
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         const size_t left = count - group * SPTI_GROUP;
         const unsigned rays = left < SPTI_GROUP ? (1u << left) - 1u : 0xffffu;

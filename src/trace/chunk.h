@@ -94,13 +94,9 @@ typedef int spti_prepare_fn(spti_chunk *chunk, const spti_march *march, size_t c
 typedef size_t spti_compact_fn(spti_chunk *chunk, const unsigned char *arrays, size_t array_count,
                                size_t count);
 
-/* Lists the slots of finished rays, but for bracketed ones, in order. Returns how many. */
-typedef size_t spti_list_fn(const spti_chunk *chunk, size_t count, uint16_t slots[SPT_BATCH]);
-
 typedef struct spti_chunk_kernels {
     spti_prepare_fn *prepare;
     spti_compact_fn *compact;
-    spti_list_fn *list;
 } spti_chunk_kernels;
 
 /* By instruction set (backend/isa.h). */

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Lists the rays that finished, and closes the gaps that they leave, array by array, in order. A
- * template over SPT_LANES. Defines list_pass(), a spti_list_fn, and compact_pass(), a
- * spti_compact_fn. */
+ * Closes the gaps that finished rays leave, array by array, in order. A template over SPT_LANES.
+ * Defines compact_pass(), a spti_compact_fn. */
 #ifndef SPTI_COMPACT_KERNEL_H
 #define SPTI_COMPACT_KERNEL_H
 
@@ -35,37 +34,37 @@ SPTI_INLINE spt_wide compact_numbers(size_t first) {
     return spt_add(spt_load(lanes), spt_splat((float)(int)first));
 }
 
-SPTI_INLINE size_t list_pass(const spti_chunk *chunk, size_t count, uint16_t *slots) {
-    SPTI_ALIGNED(64) float numbers[SPTI_ROOM];
-    size_t listed = 0;
-    for (size_t at = 0; at < count; at += SPT_LANES) {
-        const spti_fates *fates = &chunk->fates[at / SPTI_GROUP];
-        const unsigned ended = fates->finished & ~(unsigned)fates->bracketed;
-        const unsigned keep = ended >> at % SPTI_GROUP & SPTI_EVERY_LANE;
-        spti_compress(&numbers[listed], compact_numbers(at), keep);
-        listed += compact_bits(keep);
-    }
-    for (size_t i = 0; i < listed; ++i) slots[i] = (uint16_t)(int)numbers[i];
-    return listed;
+/* Lanes behind the last ray repeat the first, so that they hold ordinary numbers. */
+SPTI_INLINE void compact_pad(float *array, size_t remain) {
+    const spt_wide first = spt_splat(array[0]);
+    for (size_t pad = 0; pad < SPTI_GROUP; pad += SPT_LANES) spt_store(&array[remain + pad], first);
 }
 
-/* A constant number of arrays at a time, since what is to be kept costs as much as keeping it. */
-SPTI_INLINE void compact_arrays(spti_chunk *chunk, const unsigned char *arrays, size_t count,
-                                const compact_moves *all) {
-    float *array[4];
-    for (size_t i = 0; i < count; ++i) array[i] = chunk->array[arrays[i]];
+SPTI_INLINE void compact_one(float *array, const compact_moves *all) {
     for (size_t move = all->first; move < all->last; ++move) {
-        const unsigned keep = all->moves[move].keep, to = all->moves[move].to;
-        for (size_t i = 0; i < count; ++i) {
-            spti_compress(&array[i][to], spt_load(&array[i][move * SPT_LANES]), keep);
-        }
+        const compact_move to = all->moves[move];
+        spti_compress(&array[to.to], spt_load(&array[move * SPT_LANES]), to.keep);
     }
-    /* Lanes behind the last ray repeat the first, so that they hold ordinary numbers. */
-    for (size_t i = 0; i < count; ++i) {
-        for (size_t pad = 0; pad < SPTI_GROUP; pad += SPT_LANES) {
-            spt_store(&array[i][all->remain + pad], spt_splat(array[i][0]));
-        }
+    compact_pad(array, all->remain);
+}
+
+/* Four arrays at a time, since what is to be kept costs as much as keeping it. */
+SPTI_INLINE void compact_four(spti_chunk *chunk, const unsigned char *arrays,
+                              const compact_moves *all) {
+    float *const a = chunk->array[arrays[0]], *const b = chunk->array[arrays[1]];
+    float *const c = chunk->array[arrays[2]], *const d = chunk->array[arrays[3]];
+    for (size_t move = all->first; move < all->last; ++move) {
+        const size_t from = move * SPT_LANES;
+        const compact_move to = all->moves[move];
+        spti_compress(&a[to.to], spt_load(&a[from]), to.keep);
+        spti_compress(&b[to.to], spt_load(&b[from]), to.keep);
+        spti_compress(&c[to.to], spt_load(&c[from]), to.keep);
+        spti_compress(&d[to.to], spt_load(&d[from]), to.keep);
     }
+    compact_pad(a, all->remain);
+    compact_pad(b, all->remain);
+    compact_pad(c, all->remain);
+    compact_pad(d, all->remain);
 }
 
 SPTI_INLINE size_t compact_pass(spti_chunk *chunk, const unsigned char *arrays, size_t array_count,
@@ -87,8 +86,8 @@ SPTI_INLINE size_t compact_pass(spti_chunk *chunk, const unsigned char *arrays, 
     all.last = last;
     all.remain = remain;
     size_t i = 0;
-    for (; i + 4 <= array_count; i += 4) compact_arrays(chunk, &arrays[i], 4, &all);
-    for (; i < array_count; ++i) compact_arrays(chunk, &arrays[i], 1, &all);
+    for (; i + 4 <= array_count; i += 4) compact_four(chunk, &arrays[i], &all);
+    for (; i < array_count; ++i) compact_one(chunk->array[arrays[i]], &all);
     return remain;
 }
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * The driver of every step rule: one pass over a chunk. A template, included once a file.
- * Parameters: SPT_LANES, and a step rule (methods/methods.h) included before. Defines march_pass().
+ * Parameters: SPT_LANES, and a step rule (methods/methods.h) included before. Defines the
+ * halves of a pass, march_samples() and march_points().
  *
  * The logic is lane-local throughout: no ray decides anything for another, which is what makes the
  * results independent of width, order and neighbours.
@@ -44,12 +45,19 @@ typedef struct march_rays {
     spt_wide scale, t_max, epsilon, path, floor_at_0;
 } march_rays;
 
-SPTI_INLINE spt_wide march_load(const spti_chunk *chunk, int array, size_t at) {
-    return spt_load(&chunk->array[array][at]);
+/* Where the arrays of a chunk are. In registers: compilers must think that the store of a vector
+ * may change what the chunk says of it. */
+typedef struct march_arrays {
+    float (*array)[SPTI_ROOM];
+    const float *distance;
+} march_arrays;
+
+SPTI_INLINE spt_wide march_load(const march_arrays *arrays, int array, size_t at) {
+    return spt_load(&arrays->array[array][at]);
 }
 
-SPTI_INLINE void march_store(spti_chunk *chunk, int array, size_t at, spt_wide a) {
-    spt_store(&chunk->array[array][at], a);
+SPTI_INLINE void march_store(const march_arrays *arrays, int array, size_t at, spt_wide a) {
+    spt_store(&arrays->array[array][at], a);
 }
 
 SPTI_INLINE void march_add_fate(uint16_t *fate, spt_mask lanes, unsigned shift) {
@@ -144,8 +152,10 @@ SPTI_INLINE spt_wide march_propose(const march_constants *all, const march_rays 
         if (all->between & SPT_CANDIDATE_PENUMBRA) rising = spt_mask_splat(0);
     }
     if (rule_needs_convex) *missed = spt_mask_or(*missed, rising);
-    step = spt_max(spt_min(step, spt_sub(rays->t_max, ray->t)), ray->radius);
-    step = spt_select(rejected, ray->radius, step);
+    if (rule_probes || rule_needs_convex) { /* otherwise it is the radius */
+        step = spt_max(spt_min(step, spt_sub(rays->t_max, ray->t)), ray->radius);
+        step = spt_select(rejected, ray->radius, step);
+    }
     if (pending) {
         /* A probe beyond where the pending sphere begins is certified by that or not at all. */
         const spt_wide pending_radius = spt_mul(ray->pending_value, rays->scale);
@@ -189,7 +199,7 @@ SPTI_INLINE void march_judge(const march_constants *all, const march_rays *rays,
         sample->rejected = spt_mask_and_not(over, reaches);
         certified = spti_mask_not(sample->rejected);
     }
-    const spt_mask number = spt_mask_and(certified, sample->legal);
+    const spt_mask number = rule_probes ? spt_mask_and(certified, sample->legal) : sample->legal;
     sample->bracketed = spti_not_less_in(number, spt_sub(zero, sample->tolerance), sample->radius);
     const spt_mask reached = spti_less_in(number, sample->radius, sample->tolerance);
     sample->nonfinite = spt_mask_and_not(certified, sample->legal);
@@ -253,65 +263,72 @@ SPTI_INLINE void march_leap(const march_constants *all, const march_rays *rays, 
     if (wants & SPTI_WANT_CANDIDATE) march_candidate(all, rays, &leapt, ray, leaps, audit);
 }
 
-SPTI_INLINE void march_load_state(const spti_chunk *chunk, size_t at, spt_wide scale,
+SPTI_INLINE void march_load_state(const march_arrays *arrays, size_t at, spt_wide scale,
                                   march_state *ray) {
     const spt_wide zero = spt_splat(0.0f);
-    ray->t = march_load(chunk, SPTI_T, at);
-    ray->value = march_load(chunk, SPTI_VALUE, at);
+    ray->t = march_load(arrays, SPTI_T, at);
+    ray->value = march_load(arrays, SPTI_VALUE, at);
     ray->radius = spt_mul(ray->value, scale);
-    ray->memory[0] = rule_memory > 0 ? march_load(chunk, SPTI_MEMORY, at) : zero;
-    ray->memory[1] = rule_memory > 1 ? march_load(chunk, SPTI_MEMORY + 1, at) : zero;
+    ray->memory[0] = rule_memory > 0 ? march_load(arrays, SPTI_MEMORY, at) : zero;
+    ray->memory[1] = rule_memory > 1 ? march_load(arrays, SPTI_MEMORY + 1, at) : zero;
 }
 
-SPTI_INLINE void march_store_state(spti_chunk *chunk, size_t at, const march_state *ray) {
-    march_store(chunk, SPTI_T, at, ray->t);
-    march_store(chunk, SPTI_VALUE, at, ray->value);
-    for (int i = 0; i < rule_memory; ++i) march_store(chunk, SPTI_MEMORY + i, at, ray->memory[i]);
+SPTI_INLINE void march_store_state(const march_arrays *arrays, size_t at, const march_state *ray) {
+    march_store(arrays, SPTI_T, at, ray->t);
+    march_store(arrays, SPTI_VALUE, at, ray->value);
+    for (int i = 0; i < rule_memory; ++i) march_store(arrays, SPTI_MEMORY + i, at, ray->memory[i]);
+}
+
+/* As ray_point(). */
+SPTI_INLINE spt_wide march_point(const march_arrays *arrays, int axis, size_t at, spt_wide t) {
+    const spt_wide along = spt_mul(t, march_load(arrays, SPTI_DIRECTION + axis, at));
+    return spt_add(march_load(arrays, SPTI_ORIGIN + axis, at), along);
 }
 
 /* The points at t, to be evaluated next. */
-SPTI_INLINE void march_store_points(spti_chunk *chunk, size_t at, spt_wide t) {
+SPTI_INLINE void march_store_points(const march_arrays *arrays, size_t at, spt_wide t) {
     for (int axis = 0; axis < 3; ++axis) {
-        march_store(chunk, SPTI_X + axis, at, ray_point(chunk, axis, at, t));
+        march_store(arrays, SPTI_X + axis, at, march_point(arrays, axis, at, t));
     }
 }
 
 /* One vector. wants is a constant. Adds the fates at `shift`, the vector's place in its group.
  * Returns whether any of its rays keeps a probe. */
-SPTI_INLINE int march_vector(spti_chunk *chunk, const march_constants *all, size_t at,
+SPTI_INLINE int march_vector(const march_arrays *arrays, const march_constants *all, size_t at,
                              unsigned shift, unsigned wants, spti_fates *fates) {
-    const march_rays rays = {march_load(chunk, SPTI_SCALE, at), march_load(chunk, SPTI_T_MAX, at),
-                             march_load(chunk, SPTI_EPSILON, at), march_load(chunk, SPTI_PATH, at),
-                             march_load(chunk, SPTI_FLOOR_AT_0, at)};
+    const march_rays rays = {march_load(arrays, SPTI_SCALE, at), march_load(arrays, SPTI_T_MAX, at),
+                             march_load(arrays, SPTI_EPSILON, at),
+                             march_load(arrays, SPTI_PATH, at),
+                             march_load(arrays, SPTI_FLOOR_AT_0, at)};
     march_audit audit;
     march_state ray;
     march_sample sample;
-    sample.t = march_load(chunk, SPTI_PROBE, at);
-    sample.value = spt_load(&chunk->distance[at]);
-    march_load_state(chunk, at, rays.scale, &ray);
+    sample.t = march_load(arrays, SPTI_PROBE, at);
+    sample.value = spt_load(&arrays->distance[at]);
+    march_load_state(arrays, at, rays.scale, &ray);
     march_judge(all, &rays, &ray, &sample);
     if (wants & SPTI_WANT_SLOPE) {
         const spt_mask number = spt_mask_and_not(sample.legal, sample.rejected);
-        audit.steepest = march_load(chunk, SPTI_STEEPEST, at);
+        audit.steepest = march_load(arrays, SPTI_STEEPEST, at);
         march_slope(&sample.pair, sample.floor, number, &audit);
     }
     march_move(all, &sample, &ray);
     if (wants & SPTI_WANT_CANDIDATE) {
         const spt_mask number = spt_mask_and(sample.legal, sample.moved);
-        audit.candidate_t = march_load(chunk, SPTI_CANDIDATE_T, at);
-        audit.candidate_ratio = march_load(chunk, SPTI_CANDIDATE_RATIO, at);
+        audit.candidate_t = march_load(arrays, SPTI_CANDIDATE_T, at);
+        audit.candidate_ratio = march_load(arrays, SPTI_CANDIDATE_RATIO, at);
         march_candidate(all, &rays, &sample.pair, &ray, number, &audit);
     }
     int keeps = 0;
     if (rule_pending) {
         /* Most vectors have no ray that keeps a probe, and leave it at that; nothing would change. */
-        ray.pending_t = march_load(chunk, SPTI_PENDING_T, at);
+        ray.pending_t = march_load(arrays, SPTI_PENDING_T, at);
         keeps = spt_any(spt_mask_or(sample.rejected, spt_less(ray.t, ray.pending_t)));
         if (keeps) {
-            ray.pending_value = march_load(chunk, SPTI_PENDING_VALUE, at);
+            ray.pending_value = march_load(arrays, SPTI_PENDING_VALUE, at);
             march_leap(all, &rays, wants, &sample, &ray, &audit);
-            march_store(chunk, SPTI_PENDING_T, at, ray.pending_t);
-            march_store(chunk, SPTI_PENDING_VALUE, at, ray.pending_value);
+            march_store(arrays, SPTI_PENDING_T, at, ray.pending_t);
+            march_store(arrays, SPTI_PENDING_VALUE, at, ray.pending_value);
         }
         if (!rule_blends) march_accept(all, &sample.pair, sample.moved, &ray);
     }
@@ -321,16 +338,16 @@ SPTI_INLINE int march_vector(spti_chunk *chunk, const march_constants *all, size
     march_add_fate(&fates->nonfinite, sample.nonfinite, shift);
     march_add_fate(&fates->bracketed, sample.bracketed, shift);
 
-    march_store_state(chunk, at, &ray);
-    if (wants & SPTI_WANT_SLOPE) march_store(chunk, SPTI_STEEPEST, at, audit.steepest);
+    march_store_state(arrays, at, &ray);
+    if (wants & SPTI_WANT_SLOPE) march_store(arrays, SPTI_STEEPEST, at, audit.steepest);
     if (wants & SPTI_WANT_FALLBACKS) {
-        const spt_wide before = march_load(chunk, SPTI_FALLBACKS, at);
+        const spt_wide before = march_load(arrays, SPTI_FALLBACKS, at);
         const spt_wide more = spt_add(before, spt_splat(1.0f));
-        march_store(chunk, SPTI_FALLBACKS, at, spt_select(sample.rejected, more, before));
+        march_store(arrays, SPTI_FALLBACKS, at, spt_select(sample.rejected, more, before));
     }
     if (wants & SPTI_WANT_CANDIDATE) {
-        march_store(chunk, SPTI_CANDIDATE_T, at, audit.candidate_t);
-        march_store(chunk, SPTI_CANDIDATE_RATIO, at, audit.candidate_ratio);
+        march_store(arrays, SPTI_CANDIDATE_T, at, audit.candidate_t);
+        march_store(arrays, SPTI_CANDIDATE_RATIO, at, audit.candidate_ratio);
     }
     return keeps;
 }
@@ -338,18 +355,18 @@ SPTI_INLINE int march_vector(spti_chunk *chunk, const march_constants *all, size
 /* The second half of a pass, in a loop of its own: one chain of dependent operations from sample to
  * next point is longer than what a processor looks ahead. What the first half found out it sees by
  * the probe: a rejected one is still beyond the certified sphere. */
-SPTI_INLINE void march_on(spti_chunk *chunk, const march_constants *all, int pending, size_t at,
-                          unsigned shift, spti_fates *fates) {
+SPTI_INLINE void march_on(const march_arrays *arrays, const march_constants *all, int pending,
+                          size_t at, unsigned shift, spti_fates *fates) {
     const spt_wide zero = spt_splat(0.0f);
-    const march_rays rays = {march_load(chunk, SPTI_SCALE, at), march_load(chunk, SPTI_T_MAX, at),
-                             zero, zero, march_load(chunk, SPTI_FLOOR_AT_0, at)};
-    const spt_wide probe = march_load(chunk, SPTI_PROBE, at);
-    const spt_wide sampled = spt_mul(spt_load(&chunk->distance[at]), rays.scale);
+    const march_rays rays = {march_load(arrays, SPTI_SCALE, at), march_load(arrays, SPTI_T_MAX, at),
+                             zero, zero, march_load(arrays, SPTI_FLOOR_AT_0, at)};
+    const spt_wide probe = march_load(arrays, SPTI_PROBE, at);
+    const spt_wide sampled = spt_mul(spt_load(&arrays->distance[at]), rays.scale);
     march_state ray;
-    march_load_state(chunk, at, rays.scale, &ray);
+    march_load_state(arrays, at, rays.scale, &ray);
     if (pending) {
-        ray.pending_t = march_load(chunk, SPTI_PENDING_T, at);
-        ray.pending_value = march_load(chunk, SPTI_PENDING_VALUE, at);
+        ray.pending_t = march_load(arrays, SPTI_PENDING_T, at);
+        ray.pending_value = march_load(arrays, SPTI_PENDING_VALUE, at);
     }
     const spt_mask rejected =
         rule_probes ? spt_less(spt_add(ray.t, ray.radius), probe) : spt_mask_splat(0);
@@ -358,22 +375,54 @@ SPTI_INLINE void march_on(spti_chunk *chunk, const march_constants *all, int pen
     march_add_fate(&fates->missed, missed, shift);
     march_add_fate(&fates->finished, spt_mask_or(missed, spti_mask_not(spt_less(ray.t, next))),
                    shift);
-    march_store_points(chunk, at, next);
+    march_store_points(arrays, at, next);
     /* A bracket is closed between t and the probe that crossed. */
     const spt_mask crossed = spti_less_in(spti_mask_not(rejected), sampled, zero);
-    march_store(chunk, SPTI_PROBE, at, spt_select(crossed, probe, next));
+    march_store(arrays, SPTI_PROBE, at, spt_select(crossed, probe, next));
 }
 
-/* Returns whether any ray finished. pending is a constant. */
-SPTI_INLINE int march_all_on(spti_chunk *chunk, const march_constants *all, size_t count,
+SPTI_INLINE march_constants march_constants_of(const spti_march *march, int first) {
+    const march_constants all = {{spt_splat(march->relaxation), spt_splat(march->extrapolation),
+                                  spt_splat(march->slope_blend), spt_splat(march->step_cap)},
+                                 spt_splat(march->pixel_radius),
+                                 spt_splat(1.0f + SPTI_FLOOR),
+                                 spt_mask_splat(first),
+                                 march->between,
+                                 spt_splat(march->inverse_lipschitz)};
+    return all;
+}
+
+/* The first half of a pass (spti_march_fn): takes the samples in. wants is a constant of
+ * SPTI_WANT_*. Returns whether any ray keeps a probe. */
+SPTI_INLINE int march_samples(spti_chunk *chunk, const spti_march *march, size_t count, int first,
+                              unsigned wants) {
+    const march_arrays arrays = {chunk->array, chunk->distance};
+    const march_constants all = march_constants_of(march, first);
+    int keeps = 0;
+    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
+        spti_fates fates = {0, 0, 0, 0, 0, 0, 0};
+        /* The whole group: its padding goes where the ray goes that it repeats. */
+        for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
+            keeps |= march_vector(&arrays, &all, group * SPTI_GROUP + shift, shift, wants, &fates);
+        }
+        chunk->fates[group] = fates;
+    }
+    return keeps;
+}
+
+/* The second half, whatever is wanted: the next points. pending is a constant. Returns whether any
+ * ray finished. */
+SPTI_INLINE int march_points(spti_chunk *chunk, const spti_march *march, size_t count,
                              int pending) {
+    const march_arrays arrays = {chunk->array, chunk->distance};
+    const march_constants all = march_constants_of(march, 0);
     unsigned any = 0;
     for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
         spti_fates fates = chunk->fates[group];
         const unsigned settled = fates.finished;
         const size_t left = count - group * SPTI_GROUP;
         for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
-            march_on(chunk, all, pending, group * SPTI_GROUP + shift, shift, &fates);
+            march_on(&arrays, &all, pending, group * SPTI_GROUP + shift, shift, &fates);
         }
         fates.missed = (uint16_t)(fates.missed & ~settled);
         /* Lanes behind the last ray hold nothing. */
@@ -382,29 +431,6 @@ SPTI_INLINE int march_all_on(spti_chunk *chunk, const march_constants *all, size
         any |= fates.finished;
     }
     return any != 0;
-}
-
-/* One pass; see spti_march_fn. wants is a constant of SPTI_WANT_*. */
-SPTI_INLINE int march_pass(spti_chunk *chunk, const spti_march *march, size_t count, int first,
-                           unsigned wants) {
-    const march_constants all = {{spt_splat(march->relaxation), spt_splat(march->extrapolation),
-                                  spt_splat(march->slope_blend), spt_splat(march->step_cap)},
-                                 spt_splat(march->pixel_radius),
-                                 spt_splat(1.0f + SPTI_FLOOR),
-                                 spt_mask_splat(first),
-                                 march->between,
-                                 spt_splat(march->inverse_lipschitz)};
-    int keeps = 0;
-    for (size_t group = 0; group * SPTI_GROUP < count; ++group) {
-        spti_fates fates = {0, 0, 0, 0, 0, 0, 0};
-        /* The whole group: its padding goes where the ray goes that it repeats. */
-        for (unsigned shift = 0; shift < SPTI_GROUP; shift += SPT_LANES) {
-            keeps |= march_vector(chunk, &all, group * SPTI_GROUP + shift, shift, wants, &fates);
-        }
-        chunk->fates[group] = fates;
-    }
-    if (rule_pending && keeps) return march_all_on(chunk, &all, count, 1);
-    return march_all_on(chunk, &all, count, 0);
 }
 
 #endif

@@ -8,7 +8,8 @@
 #include <float.h>
 #include <math.h>
 
-#include "../bound/volume_kernel.h"
+#include "../bound/interval_kernel.h"
+#include "../bound/volume.h"
 #include "ray_kernel.h"
 
 SPTI_INLINE spt_mask prepare_finite(spt_wide a) {
@@ -100,25 +101,26 @@ SPTI_INLINE spt_wide prepare_floor(const spti_march *march, spt_wide reach, spt_
     return spt_div(spt_add(of_origin, spt_splat(SPTI_FLOOR * march->size)), length);
 }
 
-SPTI_INLINE void prepare_store(spti_chunk *chunk, const spti_march *march, size_t at,
+SPTI_INLINE void prepare_store(float (*array)[SPTI_ROOM], const spti_march *march, size_t at,
                                const prepare_rays *rays) {
     const interval_ray *const ray = &rays->ray;
-    spt_store(&chunk->array[SPTI_SCALE][at], prepare_scale(march, ray->length));
-    spt_store(&chunk->array[SPTI_T_MAX][at], rays->t_max);
-    spt_store(&chunk->array[SPTI_EPSILON][at], prepare_epsilon(march->epsilon, ray->length));
-    spt_store(&chunk->array[SPTI_PATH][at], spt_div(rays->path, ray->length));
-    spt_store(&chunk->array[SPTI_FLOOR_AT_0][at], prepare_floor(march, ray->reach, ray->length));
-    spt_store(&chunk->array[SPTI_T][at], rays->t_min);
-    spt_store(&chunk->array[SPTI_PROBE][at], rays->t_min);
-    spt_store(&chunk->array[SPTI_VALUE][at], spt_splat(INFINITY)); /* where nothing is evaluated */
-    for (int array = SPTI_MEMORY; array < SPTI_CANDIDATE_RATIO; ++array) {
-        spt_store(&chunk->array[array][at], spt_splat(0.0f));
+    spt_store(&array[SPTI_SCALE][at], prepare_scale(march, ray->length));
+    spt_store(&array[SPTI_T_MAX][at], rays->t_max);
+    spt_store(&array[SPTI_EPSILON][at], prepare_epsilon(march->epsilon, ray->length));
+    spt_store(&array[SPTI_PATH][at], spt_div(rays->path, ray->length));
+    spt_store(&array[SPTI_FLOOR_AT_0][at], prepare_floor(march, ray->reach, ray->length));
+    spt_store(&array[SPTI_T][at], rays->t_min);
+    spt_store(&array[SPTI_PROBE][at], rays->t_min);
+    spt_store(&array[SPTI_VALUE][at], spt_splat(INFINITY)); /* where nothing is evaluated */
+    for (int zero = SPTI_MEMORY; zero < SPTI_CANDIDATE_RATIO; ++zero) {
+        spt_store(&array[zero][at], spt_splat(0.0f));
     }
-    spt_store(&chunk->array[SPTI_CANDIDATE_RATIO][at], spt_splat(INFINITY));
+    spt_store(&array[SPTI_CANDIDATE_RATIO][at], spt_splat(INFINITY));
     for (int axis = 0; axis < 3; ++axis) {
-        spt_store(&chunk->array[SPTI_DIRECTION + axis][at], ray->direction[axis]);
-        const spt_wide point = ray_point(chunk, axis, at, rays->t_min);
-        spt_store(&chunk->array[SPTI_X + axis][at], point);
+        const spt_wide along = spt_mul(rays->t_min, ray->direction[axis]);
+        const spt_wide origin = spt_load(&array[SPTI_ORIGIN + axis][at]);
+        spt_store(&array[SPTI_DIRECTION + axis][at], ray->direction[axis]);
+        spt_store(&array[SPTI_X + axis][at], spt_add(origin, along));
     }
 }
 
@@ -129,15 +131,34 @@ SPTI_INLINE spt_wide prepare_enters(spt_wide own, spt_wide t, spt_wide tolerance
     return spt_select(enters, spt_splat(1.0f), spt_splat(0.0f));
 }
 
+/* Cuts the intervals with a bound. Volumes that are neither spheres nor boxes go by memory to where
+ * all widths find them. */
+SPTI_INLINE void prepare_bound(const spt_bound *bound, float size, prepare_rays *rays) {
+    const interval_ray *const ray = &rays->ray;
+    if (interval_has_hull(bound)) interval_of_hull(bound, size, ray, &rays->t_min, &rays->t_max);
+    if (interval_has_more(bound)) {
+        spti_volume_rays stored;
+        for (int axis = 0; axis < 3; ++axis) {
+            spt_store(stored.origin[axis], ray->origin[axis]);
+            spt_store(stored.direction[axis], ray->direction[axis]);
+        }
+        spt_store(stored.t_min, rays->t_min);
+        spt_store(stored.t_max, rays->t_max);
+        spti_volume_cut(bound, SPT_LANES, &stored);
+        rays->t_min = spt_load(stored.t_min);
+        rays->t_max = spt_load(stored.t_max);
+    }
+}
+
 SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, float size, size_t at,
                                 unsigned shift, spti_fates *fates) {
+    /* In a register: the compiler must think that any store of a vector changes the chunk's. */
+    float(*const array)[SPTI_ROOM] = chunk->array;
     prepare_rays rays;
     prepare_load(chunk, at, &rays);
     const spt_wide unit = prepare_units(&rays);
     const spt_wide own = rays.t_min;
-    if (march->bound != NULL) {
-        interval_of_bound(march->bound, size, &rays.ray, &rays.t_min, &rays.t_max);
-    }
+    if (march->bound != NULL) prepare_bound(march->bound, size, &rays);
     const spt_mask missed = spt_mask_and_not(rays.good, spt_less_equal(rays.t_min, rays.t_max));
     const spt_mask traced = spt_mask_and_not(rays.good, missed);
     rays.t_min = spt_select(traced, rays.t_min, spt_splat(0.0f));
@@ -147,16 +168,15 @@ SPTI_INLINE void prepare_vector(spti_chunk *chunk, const spti_march *march, floa
     fates->missed = (uint16_t)(fates->missed | spt_mask_bits(missed) << shift);
     fates->finished = (uint16_t)(fates->finished | finished << shift);
     spt_store(&chunk->unit[at], unit);
-    prepare_store(chunk, march, at, &rays);
+    prepare_store(array, march, at, &rays);
     if (march->bound != NULL) {
-        const spt_wide floor = ray_floor(spt_load(&chunk->array[SPTI_FLOOR_AT_0][at]), rays.t_min);
+        const spt_wide floor = ray_floor(spt_load(&array[SPTI_FLOOR_AT_0][at]), rays.t_min);
         const spt_wide tolerance =
-            ray_tolerance(spt_load(&chunk->array[SPTI_EPSILON][at]), spt_splat(march->pixel_radius),
-                          spt_load(&chunk->array[SPTI_PATH][at]), floor, rays.t_min);
+            ray_tolerance(spt_load(&array[SPTI_EPSILON][at]), spt_splat(march->pixel_radius),
+                          spt_load(&array[SPTI_PATH][at]), floor, rays.t_min);
         /* Until a probe is kept nobody else looks there. */
-        spt_store(&chunk->array[SPTI_PENDING_VALUE][at],
-                  prepare_enters(own, rays.t_min, tolerance));
-        if (spti_bound_asks(march->bound)) spt_store(&chunk->array[SPTI_PROBE][at], own);
+        spt_store(&array[SPTI_PENDING_VALUE][at], prepare_enters(own, rays.t_min, tolerance));
+        if (spti_bound_asks(march->bound)) spt_store(&array[SPTI_PROBE][at], own);
     }
 }
 

@@ -7,24 +7,21 @@
 #include "../bound/bound_check.h"
 #include "driver.h"
 
+/* Views consist of columns and of nothing else. The first six of rays must be there. */
 static int check_rays(const spt_rays *rays, size_t count) {
-    const spt_column *const columns[] = {
-        &rays->origin[0],    &rays->origin[1],    &rays->origin[2], &rays->direction[0],
-        &rays->direction[1], &rays->direction[2], &rays->t_min,     &rays->t_max,
-        &rays->path,         &rays->active};
-    for (size_t i = 0; i < sizeof columns / sizeof *columns; ++i) {
-        if (columns[i]->first == NULL && i < 6) return 0;
-        if (!spti_column_fits(columns[i], count)) return 0;
+    for (size_t i = 0; i < sizeof *rays / sizeof(spt_column); ++i) {
+        spt_column column;
+        memcpy(&column, (const char *)rays + i * sizeof column, sizeof column);
+        if ((column.first == NULL && i < 6) || !spti_column_fits(&column, count)) return 0;
     }
     return 1;
 }
 
 static int check_hits(const spt_hits *hits, size_t count) {
-    const spt_sink *const sinks[] = {&hits->t,           &hits->residual,        &hits->outcome,
-                                     &hits->evaluations, &hits->flags,           &hits->component,
-                                     &hits->candidate_t, &hits->candidate_ratio, &hits->fallbacks};
-    for (size_t i = 0; i < sizeof sinks / sizeof *sinks; ++i) {
-        if (!spti_sink_fits(sinks[i], count)) return 0;
+    for (size_t i = 0; i < sizeof *hits / sizeof(spt_sink); ++i) {
+        spt_sink sink;
+        memcpy(&sink, (const char *)hits + i * sizeof sink, sizeof sink);
+        if (!spti_sink_fits(&sink, count)) return 0;
     }
     return 1;
 }
@@ -54,28 +51,25 @@ static int have_one_origin(const spt_rays *rays) {
  * moved. */
 static void settle_arrays(spti_call *call) {
     const spt_method *method = call->settings.method;
+    const int skips = (call->settings.flags & SPT_SKIP_START) != 0;
+    uint32_t absent = 0;
     if (call->rays != NULL) {
         call->one_origin = call->turn == NULL && have_one_origin(call->rays);
     }
+    if (call->one_origin) absent |= 7u << SPTI_ORIGIN | 1u << SPTI_PATH;
+    if (method->memory < 1) absent |= 1u << SPTI_MEMORY;
+    if (method->memory < 2 && !method->pending) absent |= 1u << SPTI_PENDING_T;
+    if (!method->pending && !skips && call->turn == NULL) absent |= 1u << SPTI_PENDING_VALUE;
+    if (!spti_keeps_spent(call)) absent |= 1u << SPTI_SPENT;
+    if (call->stop == NULL) absent |= 1u << SPTI_STOP;
+    if (!(call->wants & SPTI_WANT_SLOPE)) absent |= 1u << SPTI_STEEPEST;
+    if (!(call->wants & SPTI_WANT_FALLBACKS)) absent |= 1u << SPTI_FALLBACKS;
+    if (!(call->wants & SPTI_WANT_CANDIDATE)) {
+        absent |= 1u << SPTI_CANDIDATE_T | 1u << SPTI_CANDIDATE_RATIO;
+    }
     call->array_count = 0;
     for (int array = 0; array < SPTI_ARRAYS; ++array) {
-        int held = 1;
-        if (array >= SPTI_ORIGIN && array < SPTI_ORIGIN + 3) held = !call->one_origin;
-        if (array == SPTI_PATH) held = !call->one_origin;
-        if (array == SPTI_MEMORY) held = method->memory > 0;
-        if (array == SPTI_PENDING_T) held = method->pending || method->memory > 1;
-        if (array == SPTI_PENDING_VALUE) {
-            held = method->pending || (call->settings.flags & SPT_SKIP_START) != 0 ||
-                   call->turn != NULL;
-        }
-        if (array == SPTI_SPENT) held = spti_keeps_spent(call);
-        if (array == SPTI_STOP) held = call->stop != NULL;
-        if (array == SPTI_STEEPEST) held = (call->wants & SPTI_WANT_SLOPE) != 0;
-        if (array == SPTI_FALLBACKS) held = (call->wants & SPTI_WANT_FALLBACKS) != 0;
-        if (array == SPTI_CANDIDATE_T || array == SPTI_CANDIDATE_RATIO) {
-            held = (call->wants & SPTI_WANT_CANDIDATE) != 0;
-        }
-        if (held) call->arrays[call->array_count++] = (unsigned char)array;
+        if (!(absent >> array & 1)) call->arrays[call->array_count++] = (unsigned char)array;
     }
 }
 
