@@ -6,6 +6,7 @@
 # make gallery    all pictures, large ones too
 # make check_glsl shaders against the library, on engines without a GPU
 # make bench      measure; writes build/bench/*.csv
+# make report     error against run time, stability, costs: a page, build/report/index.html
 # make install    PREFIX=/usr/local DESTDIR= LIBDIR= INCLUDEDIR=
 #
 # Hooks: CC CXX AR, CFLAGS and LDFLAGS (extra flags), B (build folder), RUN (a wrapper around the
@@ -424,6 +425,49 @@ bench: $(BENCHES:%=$B/%$(EXE))
 	@for program in $(BENCHES); do \
 	  $(RUN) $B/$$program$(EXE) $(if $(QUICK),--quick) --output $B/bench || exit 1; \
 	done
+
+# ---- The report ---------------------------------------------------------------------------------
+
+# Error against run time, stability, what is left out: tables, and a page that is drawn from them.
+# REPORT=quick: minutes instead of half an hour. A run that was interrupted goes on.
+REPORT ?=
+REPORT_MAINS := tests/bench/driver.c $(foreach name,frame/frame keinert/keinert krs/krs peers/peers,\
+                  tests/bench/$(name)_bench.c)
+REPORT_PEERS := $(if $(filter 1,$(EGL)),tests/bench/peers/peers_llvmpipe.c tests/bench/peers/peers_shaders.c)
+# What benches and oracles are made of, but for those that are tests or programs.
+REPORT_SHARED := $(filter-out tests/oracle/test_%.c $(REPORT_MAINS) tests/bench/peak_lanes.c \
+                   tests/bench/peers/%,$(wildcard tests/oracle/*.c tests/bench/*.c tests/bench/*/*.c)) \
+                 $(REPORT_PEERS)
+REPORT_BENCH := $(wildcard tests/report/report*.c tests/report/measure/*.c) tests/report/csv.c
+REPORT_PAGE := $(wildcard tests/report/page*.c tests/report/plot*.c tests/report/page/*.c) \
+               tests/report/csv.c
+
+$B/tests/report/%.o: tests/report/%.c $B/setup
+	@mkdir -p $(@D)
+	$(call SAY,$@)
+	$(Q)$(OWN) -Itests/report $(if $(filter 1,$(EGL)),-DREPORT_LLVMPIPE) $(CFLAGS) $(KEEP) -c $< -o $@
+
+$B/report_shared.a: $(REPORT_SHARED:%.c=$B/%.o) $(SCENE_LANES:%=$B/tests/bench/peak_lanes_%.o)
+	@rm -f $@
+	$(Q)$(AR) rcsD $@ $^
+
+$B/report_bench$(EXE): $(REPORT_BENCH:%.c=$B/%.o) $B/report_shared.a $B/examples/shared.a $(SCENES) \
+                       $(STATIC)
+	$(call SAY,$@)
+	$(Q)$(EXAMPLE_LINK) $(CFLAGS) $(LDFLAGS) $^ $(OIIO_LIBS) $(if $(filter 1,$(EGL)),-lEGL -lGL) \
+	  -lm -pthread -o $@
+
+$B/report_page$(EXE): $(REPORT_PAGE:%.c=$B/%.o)
+	$(call SAY,$@)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
+
+.PHONY: report
+report: $B/report_bench$(EXE) $B/report_page$(EXE) all
+	@mkdir -p $B/report
+	@$(RUN) $B/report_bench$(EXE) $(if $(filter quick,$(REPORT)),--quick) --output $B/report --build $B; \
+	status=$$?; [ $$status = 0 ] || [ $$status = 3 ] || exit $$status; \
+	$(RUN) $B/report_page$(EXE) $B/report && sh tests/report/numbers.sh $B/report && \
+	echo 'the report is in $B/report/index.html' && exit $$status
 
 # ---- Installing ---------------------------------------------------------------------------------
 

@@ -53,7 +53,7 @@ objects_of_map() {
 }
 
 sets=$(ar t "$archive" | sed -n 's/^basic_\(.*\)\.o$/\1/p' | sort -u)
-ar t "$archive" | grep -q '^chunk_ssse3\.o$' && sets="$sets ssse3"
+ar t "$archive" | grep -q '^compact_ssse3\.o$' && sets="$sets ssse3"
 sets=$(echo $sets)
 
 least=

@@ -17,7 +17,7 @@ static void plot_programs(page *out, const csv_table *sizes) {
     plot drawn = {0};
     for (int row = 0; row < rows && count < most_programs; ++row) {
         names[count] = csv_text(sizes, row, "program");
-        kibibytes[count] = csv_number(sizes, row, "library_bytes") / 1024;
+        kibibytes[count] = csv_number(sizes, row, "text_bytes") / 1024;
         x[count] = count;
         ++count;
     }
@@ -25,7 +25,7 @@ static void plot_programs(page *out, const csv_table *sizes) {
     drawn.x.title = "what a program uses besides one sphere and basic tracing (minimal)";
     drawn.x.names = names;
     drawn.x.name_count = count;
-    drawn.y.title = "code and constants, KiB";
+    drawn.y.title = "code, KiB";
     drawn.width = 720;
     plot_add(&drawn, NULL, PLOT_BARS, count, x, kibibytes);
     if (!isnan(promised)) plot_add_mark(&drawn, 0, promised / 1024, "promised for minimal");
@@ -104,7 +104,7 @@ static void table_map(page *out) {
 
 void left_out_objects(page *out) {
     csv_table *const sizes = csv_open(out->tables, "sizes");
-    const double bytes = csv_number(sizes, 0, "library_bytes");
+    const double bytes = csv_number(sizes, 0, "text_bytes");
     const int kept = bytes <= csv_number(sizes, 0, "promised");
     page_heading(out, "Objects: what a program links");
     page_begin(out);
@@ -117,13 +117,16 @@ void left_out_objects(page *out) {
     page_words(out, "A static link takes the objects that a program names, one a capability, step "
                     "rule and instruction set. The smallest program, one sphere and basic "
                     "tracing, carries ");
+    page_number(out, sizes, 0, "text_bytes", "%.0f");
+    page_words(out, " bytes of code, ");
     page_number(out, sizes, 0, "library_bytes", "%.0f");
-    page_words(out, " bytes; promised are at most ");
+    page_words(out, " with constants and what unwinding needs; promised are at most ");
     page_number(out, sizes, 0, "promised", "%.0f");
-    page_words(out, kept ? ". The promise is kept."
-                         : ": *the promise is not kept*. What the program carries without use are "
-                           "kernels for results that it does not ask for, and bounding volumes: "
-                           "whether a call wants them shows only when it runs.");
+    page_words(
+        out, kept ? " of code. The promise is kept."
+                  : " of code: *the promise is not kept*. What the program carries without use are "
+                    "kernels for results that it does not ask for, and bounding volumes: "
+                    "whether a call wants them shows only when it runs.");
     page_end(out);
     plot_programs(out, sizes);
     table_programs(out, sizes);
