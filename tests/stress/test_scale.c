@@ -116,7 +116,7 @@ static void C2c_scene_times_power_of_two(void) {
 static float scaled_box(const void *data, float x, float y, float z) {
     const double size = ldexp(1.0, *(const int *)data), p[3] = {(double)x, (double)y, (double)z};
     static const double center[3] = {0.75, 0.0, 3.5}, half[3] = {0.5, 0.375, 0.25};
-    double outside = 0, inside = -INFINITY;
+    double outside = 0, inside = -(double)INFINITY;
     for (int axis = 0; axis < 3; ++axis) {
         const double beyond = fabs(p[axis] / size - center[axis]) - half[axis];
         outside += beyond > 0 ? beyond * beyond : 0;
