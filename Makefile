@@ -87,8 +87,9 @@ SHARED := $B/libspheretrace.so.$(VERSION)
 .SUFFIXES:
 all: $(STATIC) $(SHARED)
 
-# A change of compiler or flags rebuilds.
-SETUP := $(CC) $(LAW) $(CFLAGS) $(KEEP) $(LDFLAGS) $(foreach isa,$(ISAS),$(isa) $(flags_$(isa)))
+# A change of compiler or flags rebuilds. Kernels are not unrolled: that gains them nothing.
+KERNEL_SPEED := -O2 -fno-unroll-loops
+SETUP := $(CC) $(KERNEL_SPEED) $(LAW) $(CFLAGS) $(KEEP) $(LDFLAGS) $(foreach isa,$(ISAS),$(isa) $(flags_$(isa)))
 $B/setup: $(if $(filter-out $(SETUP),$(shell cat $B/setup 2>/dev/null))$(filter-out \
             $(shell cat $B/setup 2>/dev/null),$(SETUP)),FORCE)
 	@mkdir -p $(@D) && printf '%s\n' '$(SETUP)' > $@
@@ -130,14 +131,14 @@ endef
 $(foreach method,$(METHODS),$(foreach isa,$(MARCH_ISAS),\
   $(eval $(call march_object,$(method),$(isa)))))
 
-# What every program carries is to be small: the kernels' loops are not unrolled, which gains them
-# nothing, and what runs once a call or once a ray is compiled for size.
+# What every program carries is to be small: what runs once a call or once a ray is compiled for
+# size.
 CHUNK := $(foreach kernel,prepare compact,\
            $(patsubst %,$B/src/backend/$(kernel)_%.o,$(call isas_of,$(kernel))))
 MARCH := $(foreach method,$(METHODS),$(MARCH_ISAS:%=$B/src/methods/$(method)_%.o))
 SMALL := backend/isa bound/bound_check bound/volume trace/leave trace/narrow trace/special \
          trace/trace
-$(MARCH) $(CHUNK) $B/src/trace/chunk.o: COMPILE := $(subst -O3,-O2 -fno-unroll-loops,$(COMPILE))
+$(MARCH) $(CHUNK) $B/src/trace/chunk.o: COMPILE := $(subst -O3,$(KERNEL_SPEED),$(COMPILE))
 $(SMALL:%=$B/src/%.o): COMPILE := $(subst -O3,-Os,$(COMPILE))
 
 $(STATIC): $(OBJECTS)
@@ -311,7 +312,10 @@ GLSL_SOURCES := $(filter-out tests/glsl/matrix.c,$(wildcard tests/glsl/*.c))
 GLSL_MAIN := -DCHECK_SUITES='"glsl/glsl_suites.h"' -DCHECK_NEEDS=engine_gl_open
 has_header = $(shell printf '\043include <$(1)>\n' | $(CC) -fsyntax-only -x c - >/dev/null 2>&1 && \
                echo 1 || echo 0)
-EGL ?= $(if $(filter 11,$(call has_header,EGL/egl.h)$(call has_header,GL/gl.h)),1,0)
+links = $(shell printf 'int main(void) {return 0;}\n' | \
+          $(CC) $(LDFLAGS) -x c - $(1) -o /dev/null >/dev/null 2>&1 && echo 1 || echo 0)
+EGL_HERE = $(call has_header,EGL/egl.h)$(call has_header,GL/gl.h)$(call links,-lEGL -lGL)
+EGL ?= $(if $(filter 111,$(EGL_HERE)),1,0)
 EGL := $(EGL)
 VULKAN ?= $(call has_header,vulkan/vulkan.h)
 VULKAN := $(VULKAN)
@@ -368,7 +372,7 @@ PEERS_LIBS = $(if $(filter 1,$(EMBREE)),-lembree3) $(if $(filter 1,$(EGL)),-lEGL
 KRS_SOURCES := $(wildcard tests/bench/krs/*.c) tests/bench/frame/frame_picture.c
 # The scalar loop that the driver is measured against gets all that the machine has, and so do the
 # callbacks that Embree calls.
-NATIVE ?= -march=native
+NATIVE ?= $(if $(call builds,-march=native),-march=native)
 # Debian's libembree-dev, version 3, if it is there.
 EMBREE ?= $(shell printf '\043include <embree3/rtcore.h>\n' | \
             $(CC) -fsyntax-only -x c - >/dev/null 2>&1 && echo 1 || echo 0)
@@ -433,10 +437,11 @@ bench: $(BENCHES:%=$B/%$(EXE))
 REPORT ?=
 REPORT_MAINS := tests/bench/driver.c $(foreach name,frame/frame keinert/keinert krs/krs peers/peers,\
                   tests/bench/$(name)_bench.c)
-REPORT_PEERS := $(if $(filter 1,$(EGL)),tests/bench/peers/peers_llvmpipe.c tests/bench/peers/peers_shaders.c)
+REPORT_PEERS := $(if $(filter 1,$(EGL)),$(PEERS_LLVMPIPE:%=tests/bench/peers/peers_%.c))
 # What benches and oracles are made of, but for those that are tests or programs.
 REPORT_SHARED := $(filter-out tests/oracle/test_%.c $(REPORT_MAINS) tests/bench/peak_lanes.c \
-                   tests/bench/peers/%,$(wildcard tests/oracle/*.c tests/bench/*.c tests/bench/*/*.c)) \
+                   tests/bench/peers/%,\
+                   $(wildcard tests/oracle/*.c tests/bench/*.c tests/bench/*/*.c)) \
                  $(REPORT_PEERS)
 REPORT_BENCH := $(wildcard tests/report/report*.c tests/report/measure/*.c) tests/report/csv.c
 REPORT_PAGE := $(wildcard tests/report/page*.c tests/report/plot*.c tests/report/page/*.c) \
@@ -445,7 +450,8 @@ REPORT_PAGE := $(wildcard tests/report/page*.c tests/report/plot*.c tests/report
 $B/tests/report/%.o: tests/report/%.c $B/setup
 	@mkdir -p $(@D)
 	$(call SAY,$@)
-	$(Q)$(OWN) -Itests/report $(if $(filter 1,$(EGL)),-DREPORT_LLVMPIPE) $(CFLAGS) $(KEEP) -c $< -o $@
+	$(Q)$(OWN) -Itests/report $(if $(filter 1,$(EGL)),-DREPORT_LLVMPIPE) $(CFLAGS) $(KEEP) \
+	  -c $< -o $@
 
 $B/report_shared.a: $(REPORT_SHARED:%.c=$B/%.o) $(SCENE_LANES:%=$B/tests/bench/peak_lanes_%.o)
 	@rm -f $@
@@ -464,7 +470,8 @@ $B/report_page$(EXE): $(REPORT_PAGE:%.c=$B/%.o)
 .PHONY: report
 report: $B/report_bench$(EXE) $B/report_page$(EXE) all
 	@mkdir -p $B/report
-	@$(RUN) $B/report_bench$(EXE) $(if $(filter quick,$(REPORT)),--quick) --output $B/report --build $B; \
+	@$(RUN) $B/report_bench$(EXE) $(if $(filter quick,$(REPORT)),--quick) --output $B/report \
+	  --build $B; \
 	status=$$?; [ $$status = 0 ] || [ $$status = 3 ] || exit $$status; \
 	$(RUN) $B/report_page$(EXE) $B/report && sh tests/report/numbers.sh $B/report && \
 	echo 'the report is in $B/report/index.html' && exit $$status

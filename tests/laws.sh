@@ -103,6 +103,17 @@ carried() {
 }
 none "a static link carries only the methods it names" carried
 
+# One sphere and basic tracing: code of the library for all instruction sets, as gcc makes it.
+small() {
+  local bytes
+  bytes=$(sh tests/report/left_out_sizes.sh sizes "$build" "$build/sizes" 2>/dev/null |
+    awk -F, '$1 == "minimal" {print $5}')
+  [ "${bytes:-99999}" -le 40960 ] || echo "${bytes:-unknown} bytes of code"
+}
+case $(cat "$build/setup") in
+  cc\ *|gcc\ *) [ "$(uname -m)" = x86_64 ] && none "the smallest program carries at most 40 KiB" small ;;
+esac
+
 # A result that nobody asked for leaves no instruction: the kernels without any have the same
 # floating-point, vector and mask instructions, loads and stores among them, as a copy of the source
 # from which everything optional was cut out (order, jumps and registers are the compiler's whim).

@@ -345,10 +345,10 @@ typedef struct spt_moekrs {
 SPT_API spt_status spt_moekrs_build(const spt_moekrs_model *model, spt_moekrs *moekrs);
 
 /* The model as a field: a lower bound of the distance, lipschitz 1, in one pass without branches,
- * which tends to the distance at the surface and, as a median, is above a third of it up to 28
- * levels (0.94 of it with one, 0.7 with four, 0.4 with 28); with it every step rule, cone and frame
- * traces MöKRS, which the paper holds to be impossible. moekrs is not copied. It is above the
- * distance by rounding only: by about 2^-20 of the coordinates that the levels see, as
+ * which tends to the distance at the surface; with it every step rule, cone and frame traces MöKRS,
+ * which the paper holds to be impossible. How much of the distance it is depends on the maps: around
+ * random models, as medians, 0.94 with one level, 0.7 with four, 0.4 with 28. moekrs is not copied.
+ * It is above the distance by rounding only: by about 2^-20 of the coordinates that the levels see, as
  * lengths in the world. At the image of infinity itself, where kernel space has no point, it is 0.
  * Cost: about 2 ns a level and evaluation with 16 lanes. */
 SPT_API spt_field spt_moekrs_field(const spt_moekrs *moekrs);

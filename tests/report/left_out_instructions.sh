@@ -6,8 +6,9 @@
 # kernels, in FOLDER, from a copy of the source from which all that is optional was cut; compares
 # their code with that of the library for a call without options; and counts the instructions of
 # both (left_out_count.c). Prints rows: option, step rule, instruction set; instructions of a pass
-# of the kernel with nothing to leave out, off, on; of a call off, on; 1 where the code of the
-# kernels is the same; and how much the same it is:
+# of the kernel with nothing to leave out, off, on; of a call off, on; 1 where what is off
+# leaves nothing: the code is the same but for its order and registers, or runs no more instructions;
+# and how much the same it is:
 #   code        the same instructions in the same registers and order; padding and addresses aside
 #   operations  the same instructions in another order or other registers
 #   alone       the same operations where the compiler sees this kernel alone, of the source as it
@@ -81,7 +82,7 @@ same() {
 }
 
 compile() { # compile SOURCE RULE SET: of the cut source or the one that is alone
-  $compiler -O3 -fPIC $have $(flags_of "$3") $common -I"$folder/$1/include" \
+  $compiler -fPIC $have $(flags_of "$3") $common -I"$folder/$1/include" \
     -DSPTI_RULE="\"../methods/$2.h\"" -DSPTI_MARCH="spti_march_$2_$3" \
     -c "$folder/$1/src/backend/march.c" -o "$folder/$1/$2_$3.o"
 }
@@ -91,7 +92,7 @@ have=
 : >"$folder/same"
 (cd "$folder/library" && ar x "$(cd "$OLDPWD" && realpath "$archive")")
 for set in $sets; do
-  [ -f "$folder/library/chunk_$set.o" ] || continue
+  [ -f "$folder/library/basic_$set.o" ] || [ -f "$folder/library/compact_$set.o" ] || continue
   have="$have -DSPTI_HAVE_$(echo "$set" | tr a-z A-Z)"
 done
 for set in $sets; do
@@ -128,6 +129,8 @@ awk -F, '
   {kernel = $2 "," $3}
   $1 == "off" {off[kernel] = $4; whole[kernel] = $5; next}
   {
+    leaves_nothing = same[kernel] ~ /^(code|operations)$/ ||
+      (cut[kernel] > 0 && off[kernel] > 0 && off[kernel] + 0 <= cut[kernel] + 0)
     print $1 "," kernel "," cut[kernel] "," off[kernel] "," $4 "," whole[kernel] "," $5 "," \
-      (same[kernel] != "no") "," same[kernel]
+      leaves_nothing "," same[kernel]
   }' "$folder/same" "$folder/counts.cut" "$folder/counts"

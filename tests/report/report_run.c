@@ -6,6 +6,7 @@
 #include "report_run.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,6 +46,12 @@ static double wall_seconds(void) {
 static int is_there(const char *path) {
     struct stat about;
     return stat(path, &about) == 0;
+}
+
+static void make_folder(const char *path) {
+    if (mkdir(path, 0777) == 0 || errno == EEXIST) return;
+    perror(path);
+    exit(1);
 }
 
 static void table_path(char *path, const report_options *options, const report_part *part) {
@@ -166,7 +173,9 @@ static void run_part(const report_options *options, const report_part *part, pro
     printf("%-18s %4d cells %4d of them from before %8.1f s\n", part->name, job.count, resumed,
            seconds);
     fflush(stdout);
+    if (parts == NULL || finished) return;
     fprintf(parts, "%s,%d,%d,%.3f\n", part->name, job.count, resumed, seconds);
+    fflush(parts);
 }
 
 /* Scenes that are built when they are first asked for must not be asked from two threads. */
@@ -179,25 +188,29 @@ static void build_scenes(void) {
     }
 }
 
-void report_run(const report_options *options, const char *wanted) {
+void report_run(const report_options *options, const char *wanted, const char *mode) {
     char path[longest_path];
+    FILE *parts = NULL;
     double total = 0, done = 0;
     build_scenes();
     path_of(path, options, "cells", "", 0);
-    report_expect(mkdir(path, 0777) == 0 || errno == EEXIST, "no folder for the cells");
+    make_folder(path);
     for (int i = 0; i < report_part_count; ++i) {
         table_path(path, options, report_parts[i]);
         if (wanted[i] && !is_there(path)) total += part_weight(options, report_parts[i]);
     }
     progress bar = progress_start("report", (size_t)total);
     path_of(path, options, "parts.csv", "", 0);
-    FILE *const parts = open_new(path, "w");
-    fputs("part,cells,resumed,seconds\n", parts);
+    if (mode != NULL) {
+        parts = open_new(path, mode);
+        if (mode[0] == 'w') fputs("part,cells,resumed,seconds\n", parts);
+        fflush(parts);
+    }
     for (int i = 0; i < report_part_count; ++i) {
         if (wanted[i]) run_part(options, report_parts[i], &bar, &done, parts);
     }
     progress_end(&bar);
-    close_whole(parts);
+    if (parts != NULL) close_whole(parts);
 }
 
 void report_forget(const report_options *options, int part) {
@@ -233,6 +246,18 @@ static void describe_run(const report_options *options, char *text, size_t size)
              (unsigned long long)program_hash(), host);
 }
 
+void report_lock(const report_options *options) {
+    char path[longest_path];
+    struct flock all = {0};
+    path_of(path, options, "lock", "", 0);
+    const int file =
+        open(path, O_RDWR | O_CREAT, 0666); /* closed, and free, when the program ends */
+    if (file < 0) perror(path);
+    report_expect(file >= 0, "the folder cannot be written to");
+    all.l_type = F_WRLCK;
+    report_expect(fcntl(file, F_SETLK, &all) == 0, "another run is at work in this folder");
+}
+
 int report_begin(const report_options *options) {
     char path[longest_path], now[512], before[512] = "";
     describe_run(options, now, sizeof now);
@@ -244,6 +269,9 @@ int report_begin(const report_options *options) {
     }
     if (strcmp(now, before) == 0) return 1;
     for (int i = 0; i < report_part_count; ++i) report_forget(options, i);
+    path_of(path, options, "index.html", "", 0);
+    remove(path);
+    path_of(path, options, "unfinished", "", 0);
     file = open_new(path, "w");
     fputs(now, file);
     close_whole(file);

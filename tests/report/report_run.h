@@ -7,9 +7,13 @@
 
 #include "report.h"
 
+/* Nobody else may run in the folder from here on; ends the program where somebody does. */
+void report_lock(const report_options *options);
+
 /* Runs the parts whose wanted[] is not 0, in order; their tables and cells that are there already
- * are kept. Writes parts.csv: `part,cells,resumed,seconds` (of wall time). */
-void report_run(const report_options *options, const char *wanted);
+ * are kept. parts: NULL, or how to open parts.csv, "w" or "a", for `part,cells,resumed,seconds` (of
+ * wall time, since the last interruption) of those that were not finished before. */
+void report_run(const report_options *options, const char *wanted, const char *parts);
 
 /* Makes the folder ready for a run of all parts: goes on with one that the same program began on
  * this machine in the same mode and did not finish, else begins anew. Returns whether it goes on. */

@@ -207,7 +207,7 @@ static void reflections(page *out, const csv_table *table) {
     line(&float32, table, "level_radius", "error_50", "radii, median", "relaxed", PLOT_LINE);
     pair(out, "accuracy_moekrs_below", &below, "accuracy_levels", &float32);
     page_words(out, "*Left:* how much less than the distance that bound is, anywhere around the "
-                    "model; the promise is of the median. The deeper a model, the less of the "
+                    "model; nothing is promised of that. The deeper a model, the less of the "
                     "distance is left, and the shorter are the steps: with ");
     page_number(out, table, last_row(table, "moekrs_below"), "value", "");
     page_words(out, " levels half of the points are short by more than ");
@@ -300,18 +300,13 @@ static void functions(page *out, const csv_table *table) {
 
 /* ---- Promises -------------------------------------------------------------------------------- */
 
-/* What the promise of a subject is about: the median, else the worst. */
-static const char *judged(const char *subject) {
-    return strcmp(subject, "moekrs_below") == 0 ? "error_50" : "error_100";
-}
-
 /* The row of a subject that uses most of what is promised; -1 where nothing is. */
 static int tightest(const csv_table *table, const char *subject) {
     double most = -1;
     int worst = -1;
     for (int row = -1; (row = csv_next(table, row, "subject=%s", subject)) >= 0;) {
         const double promised = csv_number(table, row, "promised");
-        const double used = csv_number(table, row, judged(subject)) / promised;
+        const double used = csv_number(table, row, "error_100") / promised;
         if (!(promised > 0) || !(used > most)) continue;
         most = used;
         worst = row;
@@ -355,13 +350,12 @@ static void promises(page *out, const csv_table *table) {
     for (int i = 0; i < count; ++i) {
         const int row = tightest(table, subjects[i]);
         if (row < 0) continue;
-        const int kept =
-            csv_number(table, row, judged(subjects[i])) <= csv_number(table, row, "promised");
+        const int kept = csv_number(table, row, "error_100") <= csv_number(table, row, "promised");
         page_row(out);
         page_cell(out, NULL, "%s", name_of(subjects[i]));
         page_cell(out, "quiet", "%s", csv_text(table, row, "parameter"));
         page_cell_number(out, NULL, table, row, "value", "");
-        page_cell_number(out, NULL, table, row, judged(subjects[i]), "%.3g");
+        page_cell_number(out, NULL, table, row, "error_100", "%.3g");
         page_cell_number(out, NULL, table, row, "promised", "%.3g");
         page_cell(out, kept ? "good" : "bad", kept ? "kept" : "exceeded");
     }
