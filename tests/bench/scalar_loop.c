@@ -127,7 +127,7 @@ SPT_SHAPE float scalar_step(scalar_rule rule, const spt_settings *settings, cons
         const float margin = 0.5f * scalar_floor(ray, t);
         const float drop = (memory->before - r) + (margin + margin);
         *missed = !(drop > 0.0f);
-        return (r - margin) * memory->step / drop;
+        return (r - margin) / drop * memory->step;
     }
     return r;
 }

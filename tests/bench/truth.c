@@ -26,14 +26,27 @@ static double resolution(const spt_ray *ray, double t) {
     return 8 * 0x1p-24 * (reach + t);
 }
 
-/* Where the library starts, so that a field that is no distance bound is sampled alike. */
-static double start_of(const scene *shown, const spt_ray *ray) {
-    float entry = ray->t_min, leaving = ray->t_max;
-    if (shown->bound != NULL) {
-        spt_bound_interval(shown->bound, ray->origin, ray->direction, ray->t_min, ray->t_max,
-                           &entry, &leaving);
+/* Where a ray enters a ball, by its quadratic in double; t_min where it does not. */
+static double ball_entry(const spt_bound *ball, const spt_ray *ray) {
+    double square = 0, along = 0, apart = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double ahead = (double)ray->direction[axis];
+        const double to = (double)ball->center[axis] - (double)ray->origin[axis];
+        square += ahead * ahead;
+        along += to * ahead;
+        apart += to * to;
     }
-    return (double)entry;
+    const double outside = apart - (double)ball->radius * (double)ball->radius;
+    const double room = along * along - square * outside;
+    if (!(room > 0)) return (double)ray->t_min;
+    return fmax((along - sqrt(room)) / square, (double)ray->t_min);
+}
+
+/* A field that is no distance bound has no truth but what basic tracing meets from where its ball
+ * is entered, which is where every tracer samples it first. Others are walked from t_min. */
+static double start_of(const scene *shown, const spt_ray *ray) {
+    const int ball = shown->bound != NULL && shown->bound->kind == SPT_BOUND_SPHERE;
+    return ball ? ball_entry(shown->bound, ray) : (double)ray->t_min;
 }
 
 double truth_last_t(const scene *shown, const spt_settings *settings, const spt_ray *ray) {

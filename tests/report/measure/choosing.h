@@ -14,11 +14,15 @@ enum { choosing_stiff_count = 6, choosing_wild_count = 7 };
 scene choosing_stiff(int number);
 scene choosing_wild(int number);
 
+/* Whether a field is a distance bound: the wild ones are none, nor is the Mandelbulb's estimate. */
+int choosing_is_bound(const scene *shown);
+
 /* The rays of a picture for one stop (choice.h), and where the last hit of each may lie
  * (bench/truth.h). A quick report takes every second ray in each direction. */
 typedef struct choosing_view {
     scene shown;
     int stop;
+    int bound; /* whether it is a distance bound */
     size_t count;
     float pixel_radius;
     spt_ray *rays;

@@ -171,6 +171,7 @@ static void from_binary(const report_options *options, FILE *rows) {
 
 /* ---- Chunks and schedules -------------------------------------------------------------------- */
 
+/* Arithmetic on sizes: no time decides. */
 static void from_chunk(const report_options *options, FILE *rows) {
     const double first_cache = 32768;
     csv_table *const from = csv_open(options->output, "chunk");
@@ -187,6 +188,23 @@ static void from_chunk(const report_options *options, FILE *rows) {
     csv_close(from);
 }
 
+/* What a frame does unless it is told otherwise, as schedules_mean.csv calls it. */
+static void default_schedule(char to[32]) {
+    const scene *const shown = scene_named("sphere");
+    const spt_camera camera = scene_camera(shown, 64, 64);
+    const spt_field field = scene_field(shown, spt_lanes());
+    spt_scene all = spt_scene_default();
+    spt_frame frame;
+    all.fields = &field;
+    all.count = 1;
+    report_expect(spt_frame_init(&frame, &all, &camera, 64, 64) == SPT_OK, "a frame is refused");
+    if (frame.passes != NULL) {
+        snprintf(to, 32, "passes_%zu", (size_t)frame.pass_count);
+    } else {
+        snprintf(to, 32, "%s", (frame.flags & SPT_FRAME_NO_CONES) != 0 ? "rays" : "cones");
+    }
+}
+
 /* Of schedules with equally few evaluations the one that takes less time. */
 static void from_schedules(const report_options *options, FILE *rows) {
     csv_table *const from = csv_open(options->output, "schedules_mean");
@@ -199,7 +217,7 @@ static void from_schedules(const report_options *options, FILE *rows) {
         if (fewer > 1 + 1e-6 || (fewer > 1 - 1e-6 && faster > 1)) best = i;
     }
     snprintf(row.chosen, sizeof row.chosen, "%s", csv_text(from, best, "schedule"));
-    snprintf(row.header, sizeof row.header, "%s", "cones");
+    default_schedule(row.header);
     write_row(&row, rows);
     csv_close(from);
 }

@@ -5,6 +5,7 @@
 #include "choosing.h"
 
 #include <math.h>
+#include <string.h>
 
 static double length(double x, double y, double z) {
     return sqrt(x * x + y * y + z * z);
@@ -128,4 +129,12 @@ scene choosing_wild(int number) {
     shown.name = names[number];
     for (int axis = 0; axis < 3; ++axis) shown.eye[axis] = eyes[number][axis];
     return shown;
+}
+
+int choosing_is_bound(const scene *shown) {
+    int bound = strcmp(shown->name, choice_kind[choice_kinds - 1]) != 0; /* the Mandelbulb */
+    for (int i = 0; i < choosing_wild_count; ++i) {
+        bound &= strcmp(shown->name, choosing_wild(i).name) != 0;
+    }
+    return bound;
 }

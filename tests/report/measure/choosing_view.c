@@ -14,6 +14,7 @@ choosing_view *choosing_view_of(const report_options *options, const scene *show
     choosing_view *const view = report_allocate(sizeof *view);
     view->shown = *shown;
     view->stop = stop;
+    view->bound = choosing_is_bound(shown);
     view->rays = report_allocate(most * sizeof *view->rays);
     view->count = choice_rays(shown, options->quick ? 2 : 1, view->rays, &view->pixel_radius);
     view->hits = report_allocate(view->count * sizeof *view->hits);
@@ -33,13 +34,14 @@ void choosing_view_free(choosing_view *view) {
     free(view);
 }
 
-/* Farther from zero than tolerance and rounding explain. A jump of f, and a bracket between samples
- * of a field that is none, is said to be no certain hit and is not counted. */
+/* Farther from zero than tolerance and rounding explain. Of a field that is no distance bound a jump
+ * of f, and a bracket between samples, is said to be no certain hit and is not counted. */
 static int is_wrong(const choosing_view *view, const spt_settings *settings, const spt_ray *ray,
                     const spt_hit *hit) {
     const double t = (double)hit->t;
     double p[3], distance;
-    if (hit->outcome != SPT_HIT || (hit->flags & SPT_FLAG_STEEP) != 0) return 0;
+    const int excused = !view->bound && (hit->flags & SPT_FLAG_STEEP) != 0;
+    if (hit->outcome != SPT_HIT || excused) return 0;
     for (int axis = 0; axis < 3; ++axis) {
         p[axis] = (double)ray->origin[axis] + t * (double)ray->direction[axis];
     }

@@ -23,7 +23,8 @@ static void write_row(int family, double value, const char *rule, const stabilit
     } else {
         fprintf(rows, ",%.9g", sum->residual_over_tolerance);
     }
-    fprintf(rows, ",%d,%d,%d,%d\n", sum->steep, sum->bad_nan, sum->bad_budget, sum->bad_residual);
+    fprintf(rows, ",%d,%d,%d,%d,%d,%d\n", sum->steep, sum->bad_nan, sum->bad_budget,
+            sum->bad_residual, sum->clear_misses, sum->clear_undecided);
 }
 
 static int cells(const report_options *options) {
@@ -52,7 +53,7 @@ const report_part report_stability = {
     "stability",
     "family,bound,parameter,value,method,rays,truth_hits,clear_hits,hits,wrong,lost,ghosts,"
     "undecided,nonfinite,evaluations_50,evaluations_99,evaluations_100,residual_over_tolerance,"
-    "steep,bad_nan,bad_budget,bad_residual",
+    "steep,bad_nan,bad_budget,bad_residual,clear_misses,clear_undecided",
     cells,
     measure,
     0,

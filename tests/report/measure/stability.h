@@ -19,6 +19,7 @@ typedef double stability_value_fn(const stability_world *world, const double p[3
 struct stability_world {
     spt_field field;
     spt_settings settings;            /* method is filled in by who traces */
+    int bound;                        /* as the family's */
     double number[stability_numbers]; /* the family's own, numbers of float all */
     void *memory;                     /* the family's own, freed after use, or NULL */
     stability_value_fn *value;

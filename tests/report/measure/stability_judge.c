@@ -71,6 +71,7 @@ void stability_draw(int family, double value, stability_world *world, stability_
     size_t unknown = 0;
     memset(world, 0, sizeof *world);
     swept->build(world, value);
+    world->bound = swept->bound;
     for (size_t i = 0; i < sample->count; ++i) {
         swept->ray(world, &random, &sample->rays[i]);
         swept->truth(world, &sample->rays[i], &sample->truths[i]);
@@ -102,7 +103,7 @@ static void judge_hit(const stability_world *world, const spt_ray *ray,
             ++sum->ghosts;
         }
     }
-    if ((hit->flags & SPT_FLAG_STEEP) != 0) return;
+    if (!world->bound && (hit->flags & SPT_FLAG_STEEP) != 0) return;
     /* The library compares in float: r and the tolerance are off by 4u each, at most. */
     const double residual = fabs((double)hit->residual) / (double)world->field.lipschitz /
                             oracle_tolerance(&world->settings, ray, t);
@@ -113,11 +114,15 @@ static void judge_hit(const stability_world *world, const spt_ray *ray,
 static void judge_ray(const stability_world *world, const spt_ray *ray,
                       const stability_truth *truth, const spt_hit *hit, stability_tally *sum) {
     const int outcome = (int)hit->outcome;
+    const int clear_miss = !truth->unknown && !(truth->first < HUGE_VAL);
+    const int clear = clear_miss || (!truth->unknown && truth->clear < HUGE_VAL);
     report_expect(outcome != SPT_BAD_RAY, "a ray that was drawn is none");
     sum->truth_hits += truth->first < HUGE_VAL;
     sum->clear_hits += truth->clear < HUGE_VAL;
     sum->lost += outcome == SPT_MISS && truth->clear < HUGE_VAL;
     sum->undecided += outcome == SPT_LIMIT;
+    sum->clear_misses += clear_miss;
+    sum->clear_undecided += clear && (outcome == SPT_LIMIT || outcome == SPT_NONFINITE);
     sum->nonfinite += outcome == SPT_NONFINITE;
     sum->steep += (hit->flags & SPT_FLAG_STEEP) != 0;
     sum->bad_nan += isnan(hit->t) || isnan(hit->candidate_t) || isnan(hit->candidate_ratio) ||

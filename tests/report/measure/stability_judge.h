@@ -41,10 +41,14 @@ void stability_trace(const stability_world *world, const char *rule,
  *   ghosts     hits where nothing is, of rays that meet nothing
  *   undecided  SPT_LIMIT: an answer, and no wrong one
  *   bad_*      what must never be, whatever a field is: a NaN anywhere but in a residual that
- *              echoes the callback's, more evaluations than the budget, and, of distance bounds, a
- *              hit beyond the tolerance without SPT_FLAG_STEEP */
+ *              echoes the callback's, more evaluations than the budget, and a hit beyond
+ *              the tolerance, which SPT_FLAG_STEEP excuses in fields that are no distance bounds
+ * Rays that meet the body clear of grazing (clear_hits) or meet nothing (clear_misses) are clear:
+ * there is something to decide; clear_undecided are those of them that are
+ * not, because their budget ended or the field gave no number. */
 typedef struct stability_tally {
     int truth_hits, clear_hits, hits, wrong, lost, ghosts, undecided, nonfinite, steep;
+    int clear_misses, clear_undecided;
     int bad_nan, bad_budget, bad_residual;
     double residual_over_tolerance; /* the largest; NaN: there was no hit to look at */
 } stability_tally;

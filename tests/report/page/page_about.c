@@ -38,8 +38,9 @@ static void how(page *out) {
                "the same on every machine and at every width of vectors. *Times* are processor "
                "time of the process, not time on the wall, since other programs may run beside "
                "it. Contenders take turns within each round, and what is shown is the median "
-               "over the rounds, or the median of the ratios of a round, with the spread of the "
-               "rounds beside it. Ratios travel to other machines better than times do.");
+               "over the rounds, or the median of the ratios of a round. The spread of the rounds "
+               "is drawn as bars or stands in the tables, mostly as a column `noise`; means over "
+               "scenes have none. Ratios travel to other machines better than times do.");
     page_end(out);
     page_begin(out);
     page_words(out,
@@ -91,7 +92,9 @@ void page_about(page *out) {
     page_words(out,
                "`make report` measures everything and draws this page anew, `make report "
                "REPORT=quick` with smaller pictures and fewer rounds, in minutes. A run that was "
-               "interrupted goes on where it was. `report_bench PART` measures one table again, "
-               "and `report_page FOLDER` draws the page from the tables as they are.");
+               "interrupted goes on where it was. `report_bench --output FOLDER PART` measures one "
+               "table again; tables that are made from it are then out of date until they are "
+               "measured again, too, so that a page to be shown to others is best made by a whole "
+               "run. `report_page FOLDER` draws the page from the tables as they are.");
     page_end(out);
 }

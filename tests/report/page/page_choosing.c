@@ -46,7 +46,8 @@ static void rules(page *out) {
              "half a pixel and `1e-4`. Values within half a percent of it are as good, and of "
              "those the one nearest to basic steps is taken. Evaluations are counted, not timed, "
              "so that the choice is the same on every machine. The others: *largest in the first "
-             "cache*, the most rays whose state fits in `32 KiB`; *fewest evaluations a pixel*, "
+             "cache*, the most rays whose state fits in `32 KiB`, which is arithmetic on sizes and "
+             "not a measurement; *fewest evaluations a pixel*, "
              "of equals the faster; *the paper's unless two percent are saved*, what is published "
              "unless another value saves more than that and still decides a ray without end within "
              "the default budget.");
@@ -152,13 +153,13 @@ static void sweeps(page *out, const csv_table *means) {
     swept[3].drawn.x.logarithmic = 1;
     for (int i = 0; i < 4; ++i) drawn[i] = swept[i].drawn;
     page_figures(out, names, drawn, 4);
-    page_words(
-        out, "Evaluations by the value of each setting, the others at their defaults, in percent "
-             "above the least of each line. Read them from left to right: nearer to basic steps "
-             "is left. All valleys are wide. That of `relaxation` lies to the right of "
-             "^1.2 (Keinert et al. 2014, section 4)^ because rejected probes are kept, as the "
-             "figure on re-arming shows. `extrapolation` rises steeply only at `1`, where the next "
-             "sphere on a plane just touches this one, and rounding turns probes down. ");
+    page_words(out,
+               "Evaluations by the value of each setting, the others at their defaults, in percent "
+               "above the least of each line. Read them from left to right: nearer to basic steps "
+               "is left. Rejected probes are kept, which favours a larger `relaxation` than the "
+               "^1.2 of Keinert et al. (2014, section 4)^; see the figure on re-arming. With an "
+               "`extrapolation` of `1` the next sphere on a plane just touches this one, and "
+               "rounding turns probes down. ");
     page_source(out, "sweep_mean");
     page_figure_end(out);
     csv_close(table);
@@ -166,8 +167,34 @@ static void sweeps(page *out, const csv_table *means) {
 
 /* ---- Fields that are no bounds --------------------------------------------------------------- */
 
+static const char *const wild[] = {"mandelbulb", "untold_bumps", "blades", "cells", "waves"};
+enum { wild_count = sizeof wild / sizeof wild[0] };
+
+/* How many of the failing rays say so, with the default's cap. */
+static void caution_table(page *out, const csv_table *means) {
+    csv_table *const defaults = csv_open(out->tables, "defaults");
+    const char *const cap =
+        csv_text(defaults, csv_next(defaults, -1, "setting=step_cap"), "header");
+    page_table(out,
+               "The same fields with `adaptive` and its default cap: rays that are lost, hit too "
+               "late, and how many of both together carry `SPT_FLAG_STEEP`",
+               "field|rays|lost|late|flagged");
+    for (int i = 0; i < wild_count; ++i) {
+        const int row = csv_next(means, -1, "parameter=step_cap,value=%s,field=%s", cap, wild[i]);
+        if (row < 0) continue;
+        page_row(out);
+        page_cell(out, NULL, "%s", wild[i]);
+        page_cell_number(out, "quiet", means, row, "rays", "");
+        page_cell_number(out, NULL, means, row, "lost", "");
+        page_cell_number(out, NULL, means, row, "late", "");
+        page_cell_number(out, NULL, means, row, "flagged", "");
+    }
+    page_table_end(out);
+    page_source(out, "caution_mean");
+    csv_close(defaults);
+}
+
 static void caution(page *out) {
-    static const char *const fields[] = {"mandelbulb", "untold_bumps", "blades", "cells", "waves"};
     static const char *const names[] = {"choosing_caution_relaxation", "choosing_caution_step_cap"};
     csv_table *const table = csv_open(out->tables, "caution_mean");
     static choosing_plot both[2];
@@ -175,11 +202,11 @@ static void caution(page *out) {
     choosing_plot_begin(&both[0], "relaxed", "relaxation", "lost or late, of 10 000 rays");
     choosing_plot_begin(&both[1], "adaptive", "step_cap", "lost or late, of 10 000 rays");
     for (int k = 0; k < 2; ++k) {
-        for (size_t i = 0; i < sizeof fields / sizeof fields[0]; ++i) {
+        for (int i = 0; i < wild_count; ++i) {
             char where[96];
             snprintf(where, sizeof where, "parameter=%s,field=%s",
-                     k == 0 ? "relaxation" : "step_cap", fields[i]);
-            choosing_line(&both[k], table, where, "value", "per_10000", fields[i]);
+                     k == 0 ? "relaxation" : "step_cap", wild[i]);
+            choosing_line(&both[k], table, where, "value", "per_10000", wild[i]);
         }
         drawn[k] = both[k].drawn;
         drawn[k].y.logarithmic = 1;
@@ -192,20 +219,13 @@ static void caution(page *out) {
         out, "Fields that are *no* distance bounds: rays that miss what basic steps meet, or hit "
              "behind it. The Mandelbulb's estimate, bumps of which the slope is not told, twisted "
              "blades, a grid in which each cell knows its own ball only, and a sum of waves. Basic "
-             "steps, at `1` on the left, are what the others are measured by and lie below the "
-             "axis. Any probe beyond the certified sphere may step through such a surface, and how "
-             "far beyond it goes hardly matters: from `2` on a cap protects from nothing, which is "
-             "why `step_cap` is chosen by evaluations alone. Most rays say so: at the blades, with "
-             "a cap of `6`, ");
-    const int row = csv_next(table, -1, "parameter=step_cap,value=6,field=blades");
-    page_number(out, table, row, "lost", "");
-    page_words(out, " are lost and ");
-    page_number(out, table, row, "late", "");
-    page_words(out, " late, and ");
-    page_number(out, table, row, "flagged", "");
-    page_words(out, " of these carry `SPT_FLAG_STEEP`. ");
+             "steps, at `1` on the left, are what the others are measured by; what is zero is not "
+             "drawn. Any probe beyond the certified sphere may step through such a surface, "
+             "however little beyond it goes, and no cap makes a bound of a field that is none: "
+             "`step_cap` is chosen by evaluations alone. ");
     page_source(out, "caution_mean");
     page_figure_end(out);
+    caution_table(out, table);
     csv_close(table);
 }
 
@@ -231,6 +251,7 @@ static void chunks(page *out) {
     static const char *const scenes[] = {"plane", "primitives", "mandelbulb", "village",
                                          "krs_tree_16"};
     csv_table *const table = csv_open(out->tables, "chunk");
+    csv_table *const defaults = csv_open(out->tables, "defaults");
     static choosing_plot drawn;
     choosing_plot_begin(&drawn, "Rays in a call", "rays in a call",
                         "time a ray, over that with 256");
@@ -240,21 +261,24 @@ static void chunks(page *out) {
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; ++i) {
         chunk_line(&drawn, table, scenes[i]);
     }
-    plot_add_mark(&drawn.drawn, 1, 256, "SPT_BATCH");
+    plot_add_mark(&drawn.drawn, 1,
+                  csv_number(defaults, csv_next(defaults, -1, "setting=SPT_BATCH"), "header"),
+                  "SPT_BATCH");
     page_figure(out, "choosing_chunk", &drawn.drawn);
     page_words(
         out, "Time a ray by how many rays a call brings: the driver marches at most `SPT_BATCH` "
              "together, and larger calls are split. Small calls pay for the call itself, and their "
-             "last rays march in vectors that are not full. The state of a chunk of that many "
-             "rays takes ");
+             "last rays march in vectors that are not full. `SPT_BATCH` itself is not chosen by "
+             "these times, but by arithmetic: the state of `256` rays takes ");
     const int row = csv_next(table, -1, "rays_a_call=256");
     page_number(out, table, row, "bytes", "");
-    page_words(out, " bytes, twice as many would take ");
+    page_words(out, " bytes, that of `512` would take ");
     page_number(out, table, csv_next(table, row, "rays_a_call=512"), "bytes", "");
-    page_words(out, ", more than a first data cache of `32 KiB` holds. Bars: half of what lies "
+    page_words(out, ", and a first data cache is taken to hold `32 KiB`. Bars: half of what lies "
                     "between the quartiles, to both sides. ");
     page_source(out, "chunk");
     page_figure_end(out);
+    csv_close(defaults);
     csv_close(table);
 }
 
@@ -286,10 +310,10 @@ static void schedules(page *out) {
     page_source(out, "schedules_mean");
     page_begin(out);
     page_words(out,
-               "Passes of lower resolution show a picture sooner, but every one of their pixels is "
-               "a ray and a cone that the final picture does not need: a picture that is only "
-               "wanted whole is traced in one pass. Interruptible passes also cost more for the "
-               "same evaluations, as `passes_1` beside `cones` shows.");
+               "Passes of lower resolution show a picture sooner. These have no `shade`, so that "
+               "nobody sees the coarse ones: they trace a cone for each of their pixels and no "
+               "ray, and what `passes_2` and on take beyond `passes_1` are such cones. Beside "
+               "`cones`, which is one piece, `passes_1` shows what it costs to be interruptible.");
     page_end(out);
     csv_close(means);
 }

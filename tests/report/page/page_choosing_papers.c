@@ -40,9 +40,9 @@ static int best_row(const csv_table *means, const char *policy) {
 static void rearming_table(page *out, const csv_table *means) {
     page_table(
         out,
-        "Policies, each with the omega that suits it best. *Rejected*: probes a ray. Nothing "
-        "is lost of the nine kinds that are bounds; of the Mandelbulb's estimate, what is "
-        "missed or hit too late.",
+        "Policies, each with the omega that suits it best. *Rejected*: probes a ray. *Lost*: "
+        "what is missed or hit too late, of the nine kinds that are bounds, and of the "
+        "Mandelbulb's estimate.",
         "over-relaxes again|best omega|evaluations|rejected|lost|lost, Mandelbulb");
     for (int i = 0; i < policy_count; ++i) {
         const int row = best_row(means, policies[i].policy);
@@ -69,29 +69,31 @@ static void rearming_answer(page *out, const csv_table *means, const csv_table *
     page_begin(out);
     page_words(out,
                "*The answer.* If probes are forgotten and over-relaxation ends for good at the "
-               "first rejected one, a larger omega only fails sooner: the best that was tried is ");
+               "first rejected one, a larger omega fails sooner: the best that was tried is ");
     page_number(out, means, best_row(means, "latch_forgetting"), "omega", "");
-    page_words(out, ", beside the ^1.2 of Keinert et al. (2014, section 4)^, and saves little: ");
+    page_words(out, ", beside the ^1.2 of Keinert et al. (2014, section 4)^: ");
     evaluations_of(out, means, "latch_forgetting");
     page_words(out, " evaluations a ray against ");
     page_number(out, sweep, choosing_method_row(sweep, "basic"), "both", "%.2f");
     page_words(out, " with basic steps. Probes that are kept and reached for free make failure "
-                    "cheap; then it pays to try again soon, and to try farther: ");
+                    "cheap: ");
     evaluations_of(out, means, "after_1");
     page_words(out, " after one plain step, ");
     evaluations_of(out, means, "after_2");
-    page_words(out, " after two, which is where waiting is best. Halving what goes beyond, and "
-                    "taking it back step by step, gives ");
+    page_words(out, " after two, ");
+    evaluations_of(out, means, "after_4");
+    page_words(out, " after four. Halving what goes beyond, and taking it back step by step, "
+                    "gives ");
     evaluations_of(out, means, "halving");
-    page_words(out, ". But no policy of one number comes near those that look at the radius: omega "
-                    "from the measured slope takes ");
+    page_words(out, ". To compare with policies that look at the radius: omega from the measured "
+                    "slope takes ");
     evaluations_of(out, means, "slope");
     page_words(out, " when capped, `auto_relaxed` ");
     page_number(out, sweep, choosing_method_row(sweep, "auto_relaxed"), "both", "%.2f");
     page_words(out, ", and `adaptive` ");
     page_number(out, sweep, choosing_method_row(sweep, "adaptive"), "both", "%.2f");
-    page_words(out, ". So the question dissolves: choose omega anew at every step, from the last "
-                    "two samples, and be armed always.");
+    page_words(out, ". Those choose omega anew at every step, from the last two samples, and are "
+                    "armed always: they need no such policy.");
     page_end(out);
 }
 
@@ -199,8 +201,7 @@ static void binary_plots(page *out, const csv_table *means) {
     page_figures(out, files, drawn, 2);
     page_words(out,
                "Probes a ray by the bonus and by the penalty, geometric means over eight bodies "
-               "and both stops. The best bonus lies left of the paper's for every penalty near "
-               "the best, and the best penalty about where the paper has it. ");
+               "and both stops. Marks: the paper's pair. ");
     page_source(out, "binary_mean");
     page_figure_end(out);
 }
@@ -230,39 +231,51 @@ static void endless_answer(page *out) {
     const int two = csv_next(endless, -1, "bonus=2"), less = csv_next(endless, -1, "bonus=1.5");
     page_begin(out);
     page_words(out,
-               "*Should the default move?* Where a body has a bound, or rays an end, a bonus of "
-               "`1.5` is the better choice. But a ray without either reaches the end of what "
-               "float32 can say after ");
+               "*Should the default move?* Not by the means alone: a ray that meets nothing, with "
+               "neither a bound nor an end, reaches the end of what float32 can say after ");
     page_number(out, endless, two, "probes", "");
     page_words(out, " probes with a bonus of `2` and after ");
     page_number(out, endless, less, "probes", "");
     page_words(out, " with `1.5`; the default budget is ");
     page_number(out, endless, two, "budget", "");
-    page_words(out,
-               ", and a miss that stays undecided is worse than a few probes more. The default "
-               "stays. ");
+    page_words(out, ", and a miss that stays undecided is worse than a few probes more. ");
+    if (csv_number(endless, two, "decided") > 0 && !(csv_number(endless, less, "decided") > 0)) {
+        page_words(out, "So a bonus of `1.5` is out. ");
+    }
     page_source(out, "binary_endless");
     page_end(out);
     csv_close(endless);
 }
 
 static void binary_answer(page *out, const csv_table *means, const csv_table *best) {
+    const int plane = csv_next(best, -1, "body=plane,stop=absolute");
     double lost = 0;
-    for (int row = 0; row < csv_rows(means); ++row) lost += csv_number(means, row, "lost");
+    int least = 0;
+    for (int row = 0; row < csv_rows(means); ++row) {
+        lost += csv_number(means, row, "lost");
+        if (csv_number(means, row, "probes") < csv_number(means, least, "probes")) least = row;
+    }
     page_begin(out);
-    page_words(out, "*The answer.* The valley is as flat as ^section 6.1^ says, but ^2.0 and 0.3^ "
-                    "are not at its bottom: they take ");
+    page_words(out, "*The answer.* The best pair is a bonus of ");
+    page_number(out, means, least, "bonus", "");
+    page_words(out, " and a penalty of ");
+    page_number(out, means, least, "penalty", "");
+    page_words(out, "; ^2.0 and 0.3 (section 6.1)^ take ");
     page_number(out, means, csv_next(means, -1, "bonus=2,penalty=0.3"), "above_least", "%.1f");
-    page_words(out, " %% more than the best pair. A bonus of `1.5` at the same penalty takes ");
+    page_words(out, " %% more. A bonus of `1.5` at the same penalty takes ");
     page_number(out, means, csv_next(means, -1, "bonus=1.5,penalty=0.3"), "above_least", "%.1f");
     page_words(out,
                " %% more. What moves the optimum (the question of ^section 12^) is how the free "
                "balls along a ray change: in front of one body met head-on they shrink "
-               "steadily, and boldness pays; along a plane or among many bodies they stay as "
-               "they are for long, each bold probe fails, and the timid win, by ");
-    page_number(out, best, csv_next(best, -1, "body=plane,stop=absolute"), "saved", "%.0f");
-    page_words(out, " %% at the plane. A penalty below `0.2` throws away what a failed probe has "
-                    "shown, one above `0.6` fails again and again. ");
+               "steadily, and a bold probe succeeds; along a plane or among many bodies they stay "
+               "as they are for long, and each bold probe fails. At the plane the best bonus is ");
+    page_number(out, best, plane, "bonus", "");
+    page_words(out, " and the best penalty ");
+    page_number(out, best, plane, "penalty", "");
+    page_words(out, ", which saves ");
+    page_number(out, best, plane, "saved", "%.0f");
+    page_words(out, " %%. A small penalty throws away what a failed probe has shown, a large one "
+                    "fails again. ");
     page_words(out, lost > 0 ? "Some pairs lose rays." : "No pair loses a ray.");
     page_end(out);
     endless_answer(out);

@@ -16,18 +16,21 @@ static void introduction(page *out, const csv_table *table, const csv_table *sum
              "behind one that it should have seen; a ray is *lost* if it misses a body that it "
              "meets deeper than rounding can hide; a *ghost* is a hit where nothing is. A ray "
              "whose budget ended is *undecided*: it says so, and how far it is free, which is an "
-             "answer and no error. `spt_convex()` runs where its licence holds.");
+             "answer and no error. But a family is *trusted* only as far as at least half of the "
+             "clear rays, those that meet the body beyond doubt or meet nothing, are decided. "
+             "`spt_convex()` runs where its licence holds.");
     page_end(out);
-    page_table(
-        out, "All families together",
-        "Rule|Families|Of them without a failing ray|Rays lost in distance bounds|Share of rays "
-        "undecided");
+    page_table(out, "All families together",
+               "Rule|Families|Of them to be trusted to the end|No failing ray, but mostly "
+               "undecided from some "
+               "value on|Rays lost in distance bounds|Share of rays undecided");
     for (int row = 0; row < csv_rows(summary); ++row) {
         const int lost = csv_number(summary, row, "lost_on_bounds") > 0;
         page_row(out);
         page_cell_number(out, NULL, summary, row, "method", "");
         page_cell_number(out, NULL, summary, row, "families", "");
         page_cell_number(out, NULL, summary, row, "trusted", "");
+        page_cell_number(out, NULL, summary, row, "half_undecided", "");
         page_cell_number(out, lost ? "bad" : "good", summary, row, "lost_on_bounds", "");
         page_cell_number(out, NULL, summary, row, "undecided_share", "%.3f");
     }
@@ -60,23 +63,23 @@ static void bounds(page *out, const csv_table *table) {
     page_words(
         out, "Where `|f|` never exceeds `lipschitz` times the distance, a rule is to lose nothing "
              "but evaluations (whether one lost more stands in the table above, and value by "
-             "value in the folded one below). Thinness, distance and depth hardly cost any; small "
-             "angles and a distance that underestimates cost as many as the budget has.");
+             "value in the folded one below). How many, and how many rays it leaves open, is what "
+             "the next two figures show.");
     page_end(out);
     stability_panels(out, table, "stability_cost", cost, sizeof cost / sizeof cost[0]);
-    page_words(out,
-               "The 99th percentile of evaluations, over the parameter of each family. The "
-               "extreme end is on the left for thickness, angle and gap, on the right for the "
-               "rest. Lines that lie flat are families that no rule notices; lines that end at the "
-               "top have spent the budget, `1000` for the plane and `128` else. ");
+    page_words(
+        out, "The 99th percentile of evaluations, over the parameter of each family. The "
+             "extreme end is on the left for thickness, angle and gap, on the right for the "
+             "rest. A line that lies flat is a family that the rule does not notice; one that ends "
+             "at the top has spent the budget, `1000` for the plane and `128` else. ");
     page_source(out, "stability");
     page_figure_end(out);
     stability_panels(out, table, "stability_open", open, sizeof open / sizeof open[0]);
     page_words(
-        out, "Rays that are still undecided when the budget ends. This is where all rules but "
-             "`spt_convex()` fall short: at a small angle to a plane evaluations grow as one over "
-             "the angle, with rules that extrapolate as a little more than half of that, so that "
-             "no budget is enough for long. A distance that is divided by a number takes that "
+        out, "Rays that are still undecided when the budget ends. At a small angle to a plane "
+             "evaluations grow as one over the angle, and rules that extrapolate take at best half "
+             "of that, so that no budget is enough for long. A distance that is divided by a "
+             "number takes that "
              "many times the steps, and its hits may lie that many tolerances short of the "
              "surface, since what is compared with the tolerance is `f`; unless `lipschitz` is "
              "divided, too. ");
@@ -100,11 +103,10 @@ static void others(page *out, const csv_table *table) {
              "they overflow, ask the neighbours.");
     page_end(out);
     stability_panels(out, table, "stability_failing", failing, sizeof failing / sizeof failing[0]);
-    page_words(out,
-               "Rays that are wrong, lost or ghosts. No rule saves a field that is no bound; how "
-               "soon it fails depends on the field, hardly on the rule. A Mandelbulb's estimate "
-               "costs few rays, and fewer at half its value. NaN costs no wrong answer: the rays "
-               "that come across it end and say so (last plot, another measure). ");
+    page_words(
+        out, "Rays that are wrong, lost or ghosts; no rule makes a bound of a field that is none. "
+             "The last plot has another measure: rays that come across NaN end and say so. Mind "
+             "the vertical axes, which differ. ");
     page_source(out, "stability");
     page_figure_end(out);
     stability_trust_tables(out);
@@ -112,10 +114,9 @@ static void others(page *out, const csv_table *table) {
     page_begin(out);
     page_words(
         out, "The audit compares successive samples of a ray and costs no evaluation. It is a "
-             "warning about the *field*, not a verdict on the ray: steep fields are flagged "
-             "before they fail, but of the failing rays it sees only some, since a ray that steps "
-             "over a body at once has seen nothing steep. It is blind to a callback that answers "
-             "infinity and to one that is wrong by its rounding: both look smooth.");
+             "warning about the *field*, not a verdict on the ray: a ray that steps over a body at "
+             "once has seen nothing steep. A callback that answers infinity, or that is wrong by "
+             "its rounding, looks smooth to it.");
     page_end(out);
 }
 
@@ -125,14 +126,14 @@ static void controls(page *out, const csv_table *table) {
     csv_table *const loops = csv_open(out->tables, "stability_loops");
     page_heading(out, "The same rays through loops as printed");
     stability_loop_panels(out, loops, table, families, sizeof families / sizeof families[0]);
-    page_words(out,
-               "Controls: the loop of a textbook, which at least says when its budget ends, and "
-               "the papers' listings, before the same judge. Listing 1 of Keinert et al. calls a "
-               "ray a miss when its iterations end, and with a tolerance below what float32 "
-               "resolves many rays stall short of the surface until they do. Algorithm 2 of Bálint "
-               "and Valasek has no margin where two spheres touch, and returns where it stands as "
-               "if it had arrived. Their Algorithm 3 is not drawn: as printed it divides zero by "
-               "zero on its first step, on every ray. ");
+    page_words(
+        out, "Controls: the loop of a textbook, which at least says when its budget ends, and "
+             "the papers' listings, before the same judge. Listing 1 of Keinert et al. calls a "
+             "ray a miss when its iterations end, also one that stalls short of the surface with a "
+             "tolerance below what float32 resolves. Algorithm 2 of Bálint "
+             "and Valasek has no margin where two spheres touch, and returns where it stands as "
+             "if it had arrived. Their Algorithm 3 is not drawn: as printed it divides zero by "
+             "zero on its first step, on every ray. ");
     page_source(out, "stability_loops");
     page_figure_end(out);
     csv_close(loops);

@@ -96,6 +96,22 @@ static void end_panel(panel_sheet *sheet, int panel) {
     drawn->y.high = largest > 0 ? fmin(1.1 * largest, 100) : 1;
 }
 
+/* One legend for all: below the last panel, which also names what is drawn in others only. */
+static void share_legend(panel_sheet *sheet, int count) {
+    plot *const last = &sheet->drawn[count - 1];
+    for (int panel = 0; panel < count - 1; ++panel) {
+        plot *const drawn = &sheet->drawn[panel];
+        for (int line = 0; line < drawn->series_count; ++line) {
+            plot_series *const series = &drawn->series[line];
+            int named = 0;
+            for (int i = 0; i < last->series_count; ++i)
+                named |= strcmp(last->series[i].name, series->name) == 0;
+            if (!named) plot_add(last, series->name, series->style, 0, series->x, series->y);
+            series->name = NULL;
+        }
+    }
+}
+
 void stability_panels(page *out, const csv_table *table, const char *name,
                       const stability_panel *panels, int count) {
     panel_sheet *const sheet = new_sheet();
@@ -113,6 +129,7 @@ void stability_panels(page *out, const csv_table *table, const char *name,
         }
         end_panel(sheet, panel);
     }
+    share_legend(sheet, count);
     page_figures(out, sheet->names, sheet->drawn, count);
     free(sheet);
 }
@@ -137,6 +154,7 @@ void stability_loop_panels(page *out, const csv_table *loops, const csv_table *t
         add_line(sheet, panel, table, where, "adaptive", PLOT_LINE, stability_failing);
         end_panel(sheet, panel);
     }
+    share_legend(sheet, count);
     page_figures(out, sheet->names, sheet->drawn, count);
     free(sheet);
 }

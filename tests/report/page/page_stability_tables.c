@@ -15,15 +15,26 @@ static void names_with_bars(char *columns, size_t size, const char *first, const
         used += (size_t)snprintf(columns + used, size - used, "|%s", names[i]);
 }
 
-/* Where a rule first fails. */
+/* Where a rule first fails, or leaves most rays open: none fails where nothing is answered. */
 static void trust_cell(page *out, const csv_table *trust, int row, const char *kind) {
     if (row < 0) {
         page_cell(out, "quiet", "not run");
-    } else if (csv_text(trust, row, "first_failing")[0] == '\0') {
-        page_cell(out, "good", "none");
-    } else {
-        page_cell_number(out, kind, trust, row, "first_failing", "");
+        return;
     }
+    const int fails = csv_text(trust, row, "first_failing")[0] != '\0';
+    const int open = csv_text(trust, row, "undecided_from")[0] != '\0';
+    if (!fails && !open) {
+        page_cell(out, "good", "none");
+        return;
+    }
+    page_cell_begin(out, fails ? kind : "warn");
+    if (fails) page_number(out, trust, row, "first_failing", "");
+    if (fails && open) page_words(out, ", ");
+    if (open) {
+        page_words(out, "undecided from ");
+        page_number(out, trust, row, "undecided_from", "");
+    }
+    page_cell_end(out);
 }
 
 static void trust_table(page *out, const csv_table *trust, const char *bound, const char *caption) {
@@ -58,11 +69,13 @@ void stability_trust_tables(page *out) {
     trust_table(
         out, trust, "0",
         "Where each step rule stops being trustworthy in fields that are no distance "
-        "bounds: the first value of the parameter at which a ray is wrong, lost or a ghost");
+        "bounds: the first value of the parameter at which a ray is wrong, lost or a ghost; "
+        "*undecided from*: where more than half of the clear rays get no answer (budget or NaN)");
     page_fold(out, "The same for the families that are distance bounds");
     trust_table(out, trust, "1",
                 "In families that are distance bounds: the first value at which a ray is wrong, "
-                "lost or a ghost");
+                "lost or a ghost; *undecided from*: where more than half of the clear rays get no "
+                "answer, so that little is left to fail");
     page_fold_end(out);
     csv_close(trust);
 }
