@@ -5,12 +5,11 @@
 #include "error_runs.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { most_rounds = 9 };
-
-static const char *const schedules[] = {"direct",   "frame",    "passes_1",
-                                        "passes_2", "passes_4", "passes_6"};
+static const char *const schedules[] = {"direct",   "frame",    "passes_1", "passes_2",
+                                        "passes_4", "passes_6", "control"};
 enum { SCHEDULES = sizeof schedules / sizeof schedules[0] };
 
 /* Building a shader takes longer than running it. */
@@ -22,13 +21,20 @@ static int in_shaders(const report_options *options, uint32_t budget) {
 
 /* ---- The clock ------------------------------------------------------------------------------ */
 
-/* Rounds in which the runners take turns, each of them at least long enough for the clock. Slow
- * ones get fewer: a long run is a mean by itself. */
-typedef struct error_times {
-    int rounds;
-    double nanoseconds[error_most_runners][most_rounds]; /* a ray */
-} error_times;
+enum { most_rounds = 9 };
 
+/* Those of a scene and a schedule with every budget, against each other. Their times are compared
+ * across budgets, so that all of them take turns in each round: whatever the machine does meanwhile
+ * then shows in the noise of each, and not between them. */
+typedef struct error_contest {
+    const char *schedule;
+    int budgets, count, rounds;
+    error_runner runner[error_budget_count * error_most_runners];
+    error_score score[error_budget_count * error_most_runners];
+    double nanoseconds[error_budget_count * error_most_runners][most_rounds]; /* a ray */
+} error_contest;
+
+/* Long enough for the clock. */
 static double seconds_of(error_runner *runner, const error_scene *in, double least) {
     double seconds = 0;
     int times = 0;
@@ -36,18 +42,32 @@ static double seconds_of(error_runner *runner, const error_scene *in, double lea
     return seconds / times;
 }
 
-/* Behind the rounds that are there already. */
-static void take_times(const report_options *options, const error_scene *in, error_runner *runners,
-                       int count, error_times *times) {
-    const int rounds = options->quick ? 5 : most_rounds, fewest = times->rounds > 0 ? 1 : 3;
-    const double least = options->quick ? 1e-4 : 5e-4, most = options->quick ? 0.08 : 0.25;
+/* Whose turn it is: every second round goes backwards and each begins elsewhere, so that nobody
+ * always comes behind the same other one. */
+static int turn_of(const error_contest *contest, int turn) {
+    const int begin = contest->rounds * contest->count / most_rounds;
+    const int i = (turn + begin) % contest->count;
+    return contest->rounds % 2 == 0 ? i : contest->count - 1 - i;
+}
+
+/* Seconds that the rounds may take. */
+static double most_seconds(const report_options *options, const error_contest *contest) {
+    return (options->quick ? 0.07 : 0.22) * contest->budgets;
+}
+
+/* Behind the rounds that are there already. Slow ones get fewer: a long run is a mean by itself. */
+static void take_times(const report_options *options, const error_scene *in,
+                       error_contest *contest) {
+    const int rounds = options->quick ? 7 : most_rounds, fewest = contest->rounds > 0 ? 1 : 3;
+    const double least = options->quick ? 1e-4 : 5e-4;
+    const double most = most_seconds(options, contest);
     const double before = bench_seconds();
-    for (; times->rounds < rounds; ++times->rounds) {
-        if (times->rounds >= fewest && bench_seconds() - before > most) break;
-        for (int turn = 0; turn < count; ++turn) {
-            const int i = (turn + times->rounds) % count;
-            const double seconds = seconds_of(&runners[i], in, least);
-            times->nanoseconds[i][times->rounds] = seconds * 1e9 / (double)in->count;
+    for (; contest->rounds < rounds; ++contest->rounds) {
+        if (contest->rounds >= fewest && bench_seconds() - before > most) break;
+        for (int turn = 0; turn < contest->count; ++turn) {
+            const int i = turn_of(contest, turn);
+            const double seconds = seconds_of(&contest->runner[i], in, least);
+            contest->nanoseconds[i][contest->rounds] = seconds * 1e9 / (double)in->count;
         }
     }
 }
@@ -86,50 +106,56 @@ static void write_row(FILE *rows, const error_scene *in, const char *schedule,
     fputc('\n', rows);
 }
 
-/* Those of a schedule and a budget, against each other. Controls write the same in every run, so
- * that their first one counts; where it was long it is the only one. */
-static void measure_group(const report_options *options, const error_scene *in,
-                          const char *schedule, error_runner *runners, int count, FILE *rows) {
-    const int ours = strcmp(schedule, "control") != 0;
-    error_score score[error_most_runners];
-    error_times times;
+/* Controls write the same in every run, so that their first one counts; where it was long it is the
+ * only one. */
+static void measure_contest(const report_options *options, const error_scene *in,
+                            error_contest *contest, FILE *rows) {
+    const int ours = strcmp(contest->schedule, "control") != 0;
     double first = 0;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < contest->count; ++i) {
+        error_runner *const runner = &contest->runner[i];
         memset(in->hits, 0, in->count * sizeof *in->hits);
-        const double seconds = runners[i].run(&runners[i], in, 1);
-        times.nanoseconds[i][0] = seconds * 1e9 / (double)in->count;
+        const double seconds = runner->run(runner, in, 1);
+        contest->nanoseconds[i][0] = seconds * 1e9 / (double)in->count;
         first += seconds;
-        score[i] = error_judge(in, &runners[i]);
-        if (ours) error_check_promises(in, &runners[i]);
+        contest->score[i] = error_judge(in, runner);
+        if (ours) error_check_promises(in, runner);
     }
-    times.rounds = ours ? 0 : 1;
-    if (ours || first < 0.25) take_times(options, in, runners, count, &times);
-    for (int i = 0; i < count; ++i) {
-        write_row(rows, in, schedule, &runners[i], &score[i], times.nanoseconds[i], times.rounds);
-        runners[i].close(&runners[i]);
+    contest->rounds = ours ? 0 : 1;
+    if (ours || first < most_seconds(options, contest)) take_times(options, in, contest);
+    for (int i = 0; i < contest->count; ++i) {
+        write_row(rows, in, contest->schedule, &contest->runner[i], &contest->score[i],
+                  contest->nanoseconds[i], contest->rounds);
+        contest->runner[i].close(&contest->runner[i]);
     }
 }
 
-static void measure_controls(const report_options *options, const error_scene *in, uint32_t budget,
-                             FILE *rows) {
-    error_runner runners[error_most_runners];
-    int count = error_controls(runners, in, budget);
-    if (in_shaders(options, budget)) count += error_shaders(runners + count, in, budget);
-    measure_group(options, in, "control", runners, count, rows);
+static void add_budget(const report_options *options, const error_scene *in, uint32_t budget,
+                       error_contest *contest) {
+    error_runner *const runners = contest->runner + contest->count;
+    if (strcmp(contest->schedule, "control") != 0) {
+        contest->count += error_ours(runners, in, contest->schedule, budget);
+    } else {
+        int count = error_controls(runners, in, budget);
+        if (in_shaders(options, budget)) count += error_shaders(runners + count, in, budget);
+        contest->count += count;
+    }
+    ++contest->budgets;
 }
 
 static void measure(const report_options *options, int cell, FILE *rows) {
     error_scene *const in = error_scene_of(options, report_scenes[cell]);
-    for (int i = 0; i < error_budget_count; ++i) {
-        const uint32_t budget = error_budgets[i];
-        if (!error_budget_wanted(options, budget)) continue;
-        for (int schedule = 0; schedule < SCHEDULES; ++schedule) {
-            error_runner runners[error_most_runners];
-            const int count = error_ours(runners, in, schedules[schedule], budget);
-            measure_group(options, in, schedules[schedule], runners, count, rows);
+    error_contest *const contest = report_allocate(sizeof *contest);
+    for (int schedule = 0; schedule < SCHEDULES; ++schedule) {
+        contest->schedule = schedules[schedule];
+        contest->budgets = contest->count = 0;
+        for (int i = 0; i < error_budget_count; ++i) {
+            if (!error_budget_wanted(options, error_budgets[i])) continue;
+            add_budget(options, in, error_budgets[i], contest);
         }
-        measure_controls(options, in, budget, rows);
+        measure_contest(options, in, contest, rows);
     }
+    free(contest);
     error_scene_free(in);
 }
 
@@ -144,4 +170,4 @@ const report_part report_error = {
     error_cells,
     measure,
     1,
-    {330, 22}};
+    {330, 25}};

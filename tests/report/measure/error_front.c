@@ -3,7 +3,8 @@
  * front.csv and front_summary.csv: which step rules have points on the Pareto front of error and
  * cost, where cost is time or evaluations. A point is a rule with a budget. It is on the front
  * where no other of the same scene and schedule is better in one and no worse in the other; of
- * times, what is within the noise of both is neither. */
+ * times, what is within the noise of both is neither. Budgets that let all rays of a rule end are
+ * the same work: they are one point. */
 #include <math.h>
 #include <string.h>
 
@@ -26,7 +27,7 @@ static int needs_licence(const error_point *point) {
 
 static int cheaper(const error_front *of, const error_point *a, const error_point *b) {
     if (!of->by_time) return a->evaluations < b->evaluations;
-    return a->nanoseconds * (1 + a->noise) < b->nanoseconds * (1 - b->noise);
+    return error_faster(a, b);
 }
 
 static int dominates(const error_front *of, const error_point *a, const error_point *b) {
@@ -42,13 +43,26 @@ static int on_front(const error_front *of, const error_point *point, int license
     return 1;
 }
 
+/* Of twins the one with the median time stands for all. */
+static int stands(const error_points *points, const error_point *point) {
+    int twins = 0, before = 0;
+    for (int i = 0; i < points->count; ++i) {
+        const error_point *const other = &points->point[i];
+        if (!error_twins(other, point)) continue;
+        ++twins;
+        before += other->nanoseconds < point->nanoseconds ||
+                  (!(point->nanoseconds < other->nanoseconds) && other < point);
+    }
+    return before == (twins - 1) / 2;
+}
+
 static void gather(error_front *of, const error_points *points, const char *shown,
                    const char *schedule) {
     of->count = 0;
     for (int i = 0; i < points->count && of->count < most_points; ++i) {
         const error_point *const point = &points->point[i];
         if (strcmp(point->scene, shown) != 0 || strcmp(point->schedule, schedule) != 0) continue;
-        if (!isnan(point->rms)) of->point[of->count++] = point;
+        if (!isnan(point->rms) && stands(points, point)) of->point[of->count++] = point;
     }
 }
 

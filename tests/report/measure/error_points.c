@@ -49,6 +49,41 @@ const error_point *error_point_at(const error_points *points, const char *shown,
     return NULL;
 }
 
+error_curve error_curve_of(const error_points *points, const char *shown, const char *schedule,
+                           const char *method) {
+    error_curve of;
+    of.count = 0;
+    for (int i = 0; i < points->budgets; ++i) {
+        const error_point *const point =
+            error_point_at(points, shown, schedule, method, points->budget[i]);
+        if (point == NULL || isnan(point->rms)) continue;
+        of.cost[ERROR_COST_TIME][of.count] = point->nanoseconds;
+        of.cost[ERROR_COST_EVALUATIONS][of.count] = point->evaluations;
+        of.rms[of.count++] = point->rms;
+    }
+    return of;
+}
+
+double error_cost_at(const error_curve *of, int cost, double error) {
+    int i = 0;
+    while (i < of->count && of->rms[i] > error) ++i;
+    if (i == 0 || i == of->count) return (double)NAN;
+    const double before = log(of->rms[i - 1]), after = log(of->rms[i]);
+    const double share = (before - log(error)) / (before - after);
+    return exp(log(of->cost[cost][i - 1]) +
+               share * (log(of->cost[cost][i]) - log(of->cost[cost][i - 1])));
+}
+
+int error_twins(const error_point *a, const error_point *b) {
+    return !(a->evaluations < b->evaluations) && !(b->evaluations < a->evaluations) &&
+           !(a->rms < b->rms) && !(b->rms < a->rms) && strcmp(a->method, b->method) == 0 &&
+           strcmp(a->schedule, b->schedule) == 0 && strcmp(a->scene, b->scene) == 0;
+}
+
+int error_faster(const error_point *a, const error_point *b) {
+    return a->nanoseconds * (1 + a->noise) < b->nanoseconds * (1 - b->noise);
+}
+
 int error_is_control(const char *schedule) {
     return strcmp(schedule, "control") == 0;
 }

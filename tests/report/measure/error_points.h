@@ -31,6 +31,25 @@ void error_points_free(error_points *points);
 const error_point *error_point_at(const error_points *points, const char *shown,
                                   const char *schedule, const char *method, const char *budget);
 
+/* Error against cost, by budget. */
+enum { ERROR_COST_TIME, ERROR_COST_EVALUATIONS, error_costs };
+typedef struct error_curve {
+    double cost[error_costs][error_most_budgets], rms[error_most_budgets];
+    int count;
+} error_curve;
+error_curve error_curve_of(const error_points *points, const char *shown, const char *schedule,
+                           const char *method);
+
+/* What it costs to come to an error: between two budgets as a power of the error. NAN: the least
+ * budget is better than that already, or the largest is not. */
+double error_cost_at(const error_curve *of, int cost, double error);
+
+/* Whether two are the same work, to the last evaluation: a rule with two budgets that both let all
+ * rays end. */
+int error_twins(const error_point *a, const error_point *b);
+/* Less time, by more than the noise of both. */
+int error_faster(const error_point *a, const error_point *b);
+
 int error_is_control(const char *schedule);
 /* One of the ten kinds. */
 int error_is_kind(const char *shown);

@@ -11,8 +11,8 @@
 /* Cells of the tables that have one for each scene; and the budgets, of which quick ones leave some
  * out. */
 int error_cells(const report_options *options);
-extern const uint32_t error_budgets[];
-extern const int error_budget_count;
+enum { error_budget_count = 12 };
+extern const uint32_t error_budgets[error_budget_count];
 int error_budget_wanted(const report_options *options, uint32_t budget);
 
 /* What is true of a ray, by its scene in double and plain steps; +infinity: not up to t_max.
@@ -41,6 +41,7 @@ typedef struct error_scene {
     spt_settings settings; /* of all runs, but for method and budget */
     error_truth *truth;    /* of each ray */
     size_t *identity;      /* 0, 1, 2 .. */
+    int bound;             /* the field is a distance bound */
     spt_hit *hits;         /* of the run at work */
 } error_scene;
 
@@ -62,7 +63,7 @@ struct error_runner {
     void *own;
 };
 
-enum { error_most_runners = 16 };
+enum { error_most_runners = 16 }; /* of a schedule and a budget */
 
 /* Those of a schedule and a budget; returns how many. All end by close(). */
 int error_ours(error_runner *runners, const error_scene *in, const char *schedule, uint32_t budget);

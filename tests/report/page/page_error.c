@@ -62,10 +62,9 @@ static void means_figure(page *out, const csv_table *means) {
                "The paper's measure, the product of error and cost, of `basic` over that of each "
                "rule with the same budget: geometric mean of the ten kinds of scene, single rays. "
                "*Left* with evaluations as the cost, *right* with processor time. Above the line a "
-               "rule is better than `basic`. All gain most with budgets in the middle: with few "
-               "evaluations no rule is near the surface, with many every rule is there and only "
-               "the cost still differs. By time the gains are smaller, and smallest for cheap "
-               "fields. ");
+               "rule is better than `basic`, below it worse. A small budget shows how fast a rule "
+               "comes near a surface; with a large one nearly all rays end, and only the cost "
+               "still differs. ");
     page_source(out, "error_means");
     page_figure_end(out);
 }
@@ -76,26 +75,29 @@ static void by_rule(page *out, const csv_table *error, const csv_table *means) {
     page_heading(out, "Step rules");
     means_figure(out, means);
     rules_figure(out, error, "village_boxes");
-    page_words(out,
-               "Single rays of a town of boxes, a field that is dear to evaluate: error against "
-               "evaluations and against time. Each marker is a budget; further left and further "
-               "down is better. All end at the error of the stop. Time follows evaluations here, "
-               "since the field takes nearly all of it. ");
+    page_words(
+        out, "Single rays of a town of boxes, a field that is dear to evaluate: error against "
+             "evaluations and against time. Each marker is a budget; further left and further "
+             "down is better. Where a line ends in several markers at one place, more budget buys "
+             "nothing: all rays have ended. ");
     page_source(out, "error");
     page_figure_end(out);
     rules_figure(out, error, "smooth_union");
-    page_words(out,
-               "A ball and a box, blended, a field of a few operations. Here the rule's own work "
-               "counts as much as the field: by time `enhanced` comes before `adaptive`, which by "
-               "evaluations is no worse. ");
+    page_words(
+        out, "A ball and a box, blended, a field of a few operations, so that the rule's own work "
+             "shows: compare the order of the lines on the left and on the right. ");
     page_source(out, "error");
     page_figure_end(out);
     rules_figure(out, error, "mandelbulb");
     page_words(out,
-               "A fractal whose field is an estimate and no distance bound. Its error does not end "
-               "at the stop: rays come so near to filaments that it is chance whether float and "
-               "double stop at the same one. Many of its rays are left out as grazing for that "
-               "reason. ");
+               "A fractal whose field is an estimate and no distance bound. Rays come so near to "
+               "filaments that it is chance whether float and double stop at the same one: its "
+               "error need not come down to the stop, and rays that graze are left out, so that ");
+    const int row = csv_next(error, -1, "scene=mandelbulb");
+    page_number(out, error, row, "truth_hits", "");
+    page_words(out, " of ");
+    page_number(out, error, row, "rays", "");
+    page_words(out, " rays count. ");
     page_source(out, "error");
     page_figure_end(out);
     page_fold(out, "The other scenes");
@@ -128,6 +130,27 @@ static void schedules_figure(page *out, const csv_table *error, const char *show
     error_pair_figure(out, &pair, name);
 }
 
+/* The figure in words, at one error. */
+static void gains_words(page *out, const csv_table *passes) {
+    int count = 0;
+    for (int i = 1; i < SCHEDULES; ++i) {
+        const int row = csv_next(passes, -1,
+                                 "baseline=direct,scene=mean,schedule=%s,method=adaptive,"
+                                 "error=0.001",
+                                 schedules[i]);
+        if (row < 0) continue;
+        page_words(out,
+                   count++ > 0 ? "; `%s` "
+                               : "To come to `1e-3` single rays take, as multiples of `%s`, ",
+                   schedules[i]);
+        page_number(out, passes, row, "evaluations_gain", "%.2f");
+        page_words(out, " of the evaluations and ");
+        page_number(out, passes, row, "time_gain", "%.2f");
+        page_words(out, " of the time");
+    }
+    if (count > 0) page_words(out, ". ");
+}
+
 /* Of the default, against single rays, at equal error. */
 static void gains_figure(page *out, const csv_table *passes) {
     static const char *const reached[error_costs] = {"error", "error"};
@@ -146,16 +169,15 @@ static void gains_figure(page *out, const csv_table *passes) {
         plot_add_mark(&pair.drawn[cost], 0, 1, "direct");
     }
     error_pair_figure(out, &pair, "error_gains");
-    page_words(out,
-               "What schedules save to come to the same error, against single rays (`direct`), in "
-               "the mean of those of the ten kinds that come to it. `frame` walks cones of "
-               "`16x16` and `4x4` pixels, and so does the first pass of each `passes_N`. "
-               "A coarse pass on top of these cones saves less than it costs. By time passes are "
-               "slower than single rays here, most where a field is cheap: they walk a cone for "
-               "every pixel "
-               "of every pass, and keep every result, so that they can be left at any moment. The "
-               "pictures are small; in larger ones a block of pixels is narrower, and its cone "
-               "goes further. ");
+    page_words(
+        out, "What schedules save to come to the same error, against single rays (`direct`), in "
+             "the mean of those of the ten kinds that come to it. `frame` walks cones of "
+             "`16x16` and `4x4` pixels, and so does the first pass of each `passes_N`. "
+             "Above the line a schedule is cheaper than single rays, below it dearer. Passes walk "
+             "a cone for every pixel of every pass, and keep every result, so that they can be "
+             "left at any moment. The pictures are small; in larger ones a block of pixels is "
+             "narrower, and its cone goes further. ");
+    gains_words(out, passes);
     page_source(out, "error_passes");
     page_figure_end(out);
 }
@@ -169,9 +191,7 @@ static void by_schedule(page *out, const csv_table *error, const csv_table *pass
     page_words(out,
                "The default rule as single rays, as a frame with cones, and in passes of rising "
                "resolution as in the paper. The budget is that of a ray in the last pass and those "
-               "before it together; evaluations count all of them, cones included, so that the "
-               "first marker of `passes_6` is far to the right of that of `direct` though its last "
-               "pass may take less. ");
+               "before it together; evaluations count all of them, cones included. ");
     page_source(out, "error");
     page_figure_end(out);
     page_fold(out, "The other scenes");
@@ -230,12 +250,12 @@ static void against_controls(page *out, const csv_table *error) {
                "iterations.");
     page_end(out);
     controls_figure(out, error, "village_boxes");
-    page_words(out,
-               "The lines that begin far above the others are those of Keinert's listings: they "
-               "return infinity for a ray whose iterations ran out, and a few such rays are all of "
-               "the error. Bálint's algorithms return how far they came, but have no end for rays "
-               "that hit nothing. `basic`, `plain_scalar` and `llvmpipe_basic` ask for the same "
-               "evaluations; by time vectors and shaders are far from one point at a time. ");
+    page_words(
+        out, "Keinert's listings return infinity for a ray whose iterations ran out, which counts "
+             "with the end of the ray. Bálint's algorithms return how far they came, but have no "
+             "end for rays that hit nothing. `basic`, `plain_scalar` and `llvmpipe_basic` take "
+             "nearly the same steps, so that their times show what one point at a time, vectors "
+             "and shaders cost. ");
     page_source(out, "error");
     page_figure_end(out);
     controls_figure(out, error, "mandelbulb");
@@ -249,7 +269,9 @@ static void against_controls(page *out, const csv_table *error) {
                "hit clearly behind it. *Ghosts:* a hit where the ray stays clear of everything. "
                "*Undecided:* the budget ran out, and the result says so. The library's rules turn "
                "what they cannot decide into *undecided*, which is no hit in the intersection over "
-               "union (IoU); most controls turn it into something else.");
+               "union (IoU); the listings have no such answer. *Noise:* half the distance between "
+               "the quartiles of the rounds, over the median; a dash where one long run had to "
+               "do.");
     page_end(out);
     error_wrongs(out, error, "village_boxes");
     page_source(out, "error");
@@ -262,6 +284,30 @@ static void against_controls(page *out, const csv_table *error) {
 
 /* ---- The section ---------------------------------------------------------------------------- */
 
+/* How far times can be trusted. */
+static void noise_words(page *out, const csv_table *noise) {
+    const int all = csv_next(noise, -1, "schedule=all");
+    page_begin(out);
+    page_words(out,
+               "All budgets, rules and rounds of a scene and a schedule take turns. *Noise* is "
+               "half the distance between the quartiles of a row's rounds, over the median: ");
+    page_number(out, noise, all, "noise_median", "%.2g");
+    page_words(out, " in the median of this run, and above ");
+    page_number(out, noise, all, "noise_high", "%.2g");
+    page_words(out, " in a tenth of the rows. It can be checked: budgets that let all rays end are "
+                    "the same work. Of ");
+    page_number(out, noise, all, "pairs", "");
+    page_words(out, " such pairs ");
+    page_number(out, noise, all, "apart", "");
+    page_words(out, " differ by more than the noise of both, the median pair by a factor of ");
+    page_number(out, noise, all, "ratio_median", "%.3f");
+    page_words(out, ", the worst by ");
+    page_number(out, noise, all, "ratio_most", "%.3f");
+    page_words(out, ": differences in time of that size say nothing. ");
+    page_source(out, "error_noise");
+    page_end(out);
+}
+
 static void introduction(page *out, const csv_table *error) {
     page_begin(out);
     page_words(out,
@@ -270,14 +316,14 @@ static void introduction(page *out, const csv_table *error) {
                "its depth is compared with basic tracing in double with ^10000^ steps. The rays "
                "are those of each scene's camera, ");
     page_number(out, error, 0, "rays", "%.0f");
-    page_words(out,
-               " of them; the stop is the same for all and small, `1e-5` or float's rounding floor "
-               "where that is larger, and no pixel's size, so that what a budget leaves is seen. "
-               "Errors are lengths along the ray, over the rays that hit clear of grazing, of "
-               "which the answer is not a matter of rounding. A ray whose budget ran out counts "
-               "with the `t` up to which it is known to be free, one that says it hits nothing "
-               "with its end. Times are processor time of one thread, rounds in turn, medians; the "
-               "machine may have been busy with other things. Evaluations are exact.");
+    page_words(
+        out, " of them; the stop is the same for all and small, `1e-5` or float's rounding floor "
+             "where that is larger, and no pixel's size, so that what a budget leaves is seen. "
+             "Errors are lengths along the ray, over the rays that hit clear of grazing, of "
+             "which the answer is not a matter of rounding. A ray whose budget ran out counts "
+             "with the `t` up to which it is known to be free, one that says it hits nothing "
+             "with its end. Times are processor time of one thread, medians of rounds; the machine "
+             "may have been busy with other things. Evaluations are exact.");
     page_end(out);
 }
 
@@ -288,10 +334,14 @@ void page_error(page *out) {
     csv_table *const front = csv_open(out->tables, "front");
     csv_table *const summary = csv_open(out->tables, "front_summary");
     csv_table *const best = csv_open(out->tables, "error_best");
+    csv_table *const equal = csv_open(out->tables, "error_equal");
+    csv_table *const noise = csv_open(out->tables, "error_noise");
     page_section(out, "error", "Error against run time");
     introduction(out, error);
+    noise_words(out, noise);
     by_rule(out, error, means);
     error_fronts(out, front, summary);
+    error_equals(out, equal);
     error_products(out, best);
     by_schedule(out, error, passes);
     against_controls(out, error);
@@ -301,4 +351,6 @@ void page_error(page *out) {
     csv_close(front);
     csv_close(summary);
     csv_close(best);
+    csv_close(equal);
+    csv_close(noise);
 }

@@ -32,8 +32,10 @@ void error_pair_add(error_pair *pair, const csv_table *table, const char *where,
  * behind it. */
 void error_pair_figure(page *out, const error_pair *pair, const char *name);
 
-/* The tables: the Pareto fronts; who does what wrong; the least products of error and cost. */
+/* The tables: the Pareto fronts; costs at equal error; who does what wrong; the least products of
+ * error and cost. */
 void error_fronts(page *out, const csv_table *front, const csv_table *summary);
+void error_equals(page *out, const csv_table *equal);
 void error_wrongs(page *out, const csv_table *error, const char *shown);
 void error_products(page *out, const csv_table *best);
 

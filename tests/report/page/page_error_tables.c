@@ -73,40 +73,40 @@ static void both_costs(page *out, const csv_table *front, const csv_table *summa
                 schedule, "nanoseconds", column);
 }
 
-static void front_words(page *out, const csv_table *summary, const char *method, const char *cost) {
-    const int row = csv_next(summary, -1, "schedule=direct,cost=%s,method=%s", cost, method);
-    if (row < 0) return;
-    page_number(out, summary, row, "on_front", "");
-    page_words(out, " of ");
-    page_number(out, summary, row, "scenes", "");
+/* In how many kinds of scene each rule is on the front. */
+static void front_words(page *out, const csv_table *summary, const char *cost) {
+    int count = 0;
+    for (int row = csv_next(summary, -1, "schedule=direct,cost=%s", cost); row >= 0;
+         row = csv_next(summary, row, "schedule=direct,cost=%s", cost)) {
+        if (isnan(csv_number(summary, row, "on_front"))) continue;
+        page_words(out, count++ > 0 ? ", `%s` in " : "`%s` in ", csv_text(summary, row, "method"));
+        page_number(out, summary, row, "on_front", "");
+    }
 }
 
 void error_fronts(page *out, const csv_table *front, const csv_table *summary) {
     page_heading(out, "Who is on the Pareto front");
     page_begin(out);
-    page_words(out,
-               "A point, a rule with a budget, is on the front of its scene where no other has a "
-               "smaller error at no more cost, or less cost at no larger error. By evaluations the "
-               "default, `adaptive`, has such a point in ");
-    front_words(out, summary, "adaptive", "evaluations");
-    page_words(out, " kinds of scene, `enhanced` in ");
-    front_words(out, summary, "enhanced", "evaluations");
-    page_words(out, "; by time `adaptive` in ");
-    front_words(out, summary, "adaptive", "nanoseconds");
-    page_words(out, " and `enhanced` in ");
-    front_words(out, summary, "enhanced", "nanoseconds");
-    page_words(out,
-               ". The two differ where a field is cheap: a step of `adaptive`, which remembers "
-               "probes that failed, costs more than one of `enhanced`, and what it saves is "
-               "evaluations.");
+    page_words(
+        out, "A point, a rule with a budget, is on the front of its scene where no other has a "
+             "smaller error at no more cost, or less cost at no larger error. Budgets that let all "
+             "rays of a rule end are the same work and count as one point. Of ");
+    page_number(out, summary, 0, "scenes", "");
+    page_words(out, " kinds of scene a rule has such a point, by evaluations, ");
+    front_words(out, summary, "evaluations");
+    page_words(out, "; by time ");
+    front_words(out, summary, "nanoseconds");
+    page_words(out, ". Times that noise cannot tell apart put several rules on the same front, and "
+                    "a rule may owe its place to an error at the stop that is smaller by next to "
+                    "nothing: how much they differ is in the tables of equal error.");
     page_end(out);
     both_costs(out, front, summary, "direct", "on_front");
     page_source(out, "front");
     page_source(out, "front_summary");
     page_fold(out, "With `convex` in the comparison, which needs a licence");
     page_begin(out);
-    page_words(out, "Where a field is a convex function the secant step is in front of all others, "
-                    "and leaves them no place but at the least cost.");
+    page_words(out, "Where a field is a convex function the secant step takes part, too; what is "
+                    "left of the others are the points that it is not better than.");
     page_end(out);
     both_costs(out, front, summary, "direct", "on_front_with_convex");
     page_fold_end(out);
@@ -124,14 +124,15 @@ static void wrong_cell(page *out, const csv_table *error, int row, const char *c
 }
 
 static void wrong_row(page *out, const csv_table *error, int row) {
+    const int frame = strcmp(csv_text(error, row, "schedule"), "frame") == 0;
     page_row(out);
-    page_cell(out, NULL, "`%s`", csv_text(error, row, "method"));
-    page_cell(out, NULL, "`%s`", csv_text(error, row, "schedule"));
+    page_cell(out, NULL, frame ? "`%s`, frame" : "`%s`", csv_text(error, row, "method"));
     page_cell_number(out, NULL, error, row, "nanoseconds", "%.0f");
+    page_cell_number(out, "quiet", error, row, "noise", "%.2g");
     page_cell_number(out, NULL, error, row, "evaluations", "%.3g");
     page_cell_number(out, NULL, error, row, "rms", "%.2g");
     page_cell_number(out, NULL, error, row, "rms_both", "%.2g");
-    page_cell_number(out, NULL, error, row, "iou", "%.4f");
+    page_cell_number(out, NULL, error, row, "iou", "%.3f");
     wrong_cell(out, error, row, "lost", "bad");
     wrong_cell(out, error, row, "late", "bad");
     wrong_cell(out, error, row, "ghosts", "bad");
@@ -142,10 +143,10 @@ void error_wrongs(page *out, const csv_table *error, const char *shown) {
     static const char *const schedules[] = {"direct", "frame", "control"};
     char caption[256];
     snprintf(caption, sizeof caption, "`%s` with `budget 64`.", shown);
-    page_table(
-        out, caption,
-        "method|schedule|ns a ray|evaluations|RMS error|where both hit|IoU of hits|lost|late|"
-        "ghosts|undecided");
+    page_table(out, caption,
+               "method|ns a ray|noise|evaluations|RMS error|where both hit|IoU of "
+               "hits|lost|late|"
+               "ghosts|undecided");
     for (int i = 0; i < 3; ++i) {
         for (int row = csv_next(error, -1, "scene=%s,schedule=%s,budget=64", shown, schedules[i]);
              row >= 0;
@@ -154,6 +155,68 @@ void error_wrongs(page *out, const csv_table *error, const char *shown) {
         }
     }
     page_table_end(out);
+}
+
+/* ---- Equal error ---------------------------------------------------------------------------- */
+
+/* The error that the tables are about; the CSV has others, too. */
+#define EQUAL "schedule=direct,error=0.001"
+
+static void equal_table(page *out, const csv_table *equal, const char *caption,
+                        const char *column) {
+    const char *scenes[most_names], *methods[most_names];
+    char columns[most_columns];
+    const int scene_number = csv_distinct(equal, "scene", scenes, most_names);
+    int method_number = 0;
+    for (int row = csv_next(equal, -1, EQUAL ",scene=mean"); row >= 0 && method_number < most_names;
+         row = csv_next(equal, row, EQUAL ",scene=mean")) {
+        methods[method_number++] = csv_text(equal, row, "method");
+    }
+    head_of(columns, "scene", methods, method_number);
+    page_table(out, caption, columns);
+    for (int i = 0; i < scene_number; ++i) {
+        const int mean = strcmp(scenes[i], "mean") == 0;
+        if (csv_next(equal, -1, EQUAL ",scene=%s", scenes[i]) < 0) continue;
+        page_row(out);
+        page_cell(out, NULL, mean ? "*geometric mean*" : "`%s`", scenes[i]);
+        for (int k = 0; k < method_number; ++k) {
+            const int row = csv_next(equal, -1, EQUAL ",scene=%s,method=%s", scenes[i], methods[k]);
+            if (row < 0) page_cell(out, "quiet", "-");
+            if (row >= 0) page_cell_number(out, NULL, equal, row, column, "%.2f");
+        }
+    }
+    page_table_end(out);
+}
+
+static void equal_words(page *out, const csv_table *equal, const char *column) {
+    int count = 0;
+    for (int row = csv_next(equal, -1, EQUAL ",scene=mean"); row >= 0;
+         row = csv_next(equal, row, EQUAL ",scene=mean")) {
+        if (strcmp(csv_text(equal, row, "method"), "basic") == 0) continue;
+        page_words(out, count++ > 0 ? ", `%s` " : "`%s` ", csv_text(equal, row, "method"));
+        page_number(out, equal, row, column, "%.2f");
+        page_words(out, " (");
+        page_number(out, equal, row, "scenes", "");
+        page_words(out, ")");
+    }
+}
+
+void error_equals(page *out, const csv_table *equal) {
+    page_heading(out, "What the same error costs");
+    page_begin(out);
+    page_words(out, "Single rays, to an RMS error of `1e-3`, as a share of what `basic` takes: "
+                    "less is better. Between two budgets the cost is interpolated as a power of "
+                    "the error. In the geometric mean (behind it the number of scenes: those of "
+                    "the ten kinds in which each rule comes to that error, though not with the "
+                    "least budget already), by evaluations ");
+    equal_words(out, equal, "evaluations_share");
+    page_words(out, "; by time ");
+    equal_words(out, equal, "time_share");
+    page_words(out, ".");
+    page_end(out);
+    equal_table(out, equal, "Evaluations, the rule over `basic`.", "evaluations_share");
+    equal_table(out, equal, "Time, the rule over `basic`.", "time_share");
+    page_source(out, "error_equal");
 }
 
 /* ---- Products ------------------------------------------------------------------------------- */
@@ -187,9 +250,10 @@ static void product_table(page *out, const csv_table *best, const char *caption,
 void error_products(page *out, const csv_table *best) {
     page_fold(out, "The least product of error and cost, over all budgets");
     page_begin(out);
-    page_words(out, "How many times as small as that of `basic` the least product of a rule is. It "
-                    "is reached with budgets at which nearly all rays are done, where the error is "
-                    "that of the stop and differs little: what remains is the cost.");
+    page_words(out,
+               "How many times as small as that of `basic` the least product of a rule is. Where "
+               "it is reached with a budget that lets all rays end, the error is that of the "
+               "stop, and the ratio is nearly that of the costs.");
     page_end(out);
     product_table(out, best, "Error times evaluations, `basic` over the rule.",
                   "error_evaluations_over_basic");
