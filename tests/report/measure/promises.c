@@ -76,9 +76,9 @@ static void from_stability(promise_sheet *sheet, const report_options *options) 
             sum_of(sheet, "lost", "bound=1,method=adaptive"), "at most", 0, 1);
     promise(sheet, "rays that any step rule loses in fields that are distance bounds",
             sum_of(sheet, "lost", "bound=1"), "at most", 0, 1);
-    promise(sheet, "wrong hits in fields that are distance bounds, by any step rule",
+    promise(sheet, "wrong hits of any step rule in fields that are distance bounds",
             sum_of(sheet, "wrong", "bound=1"), "at most", 0, 1);
-    promise(sheet, "hits where nothing is in fields that are distance bounds, by any step rule",
+    promise(sheet, "hits of any step rule where nothing is in fields that are distance bounds",
             sum_of(sheet, "ghosts", "bound=1"), "at most", 0, 1);
     promise(sheet, "NaN in results but for the echoed residual", sum_of(sheet, "bad_nan", ""),
             "at most", 0, 1);
