@@ -248,6 +248,7 @@ demo: $B/render$(EXE) $B/models$(EXE) $B/emit$(EXE)
 LARGE ?= --large
 gallery: $(patsubst %,$B/%$(EXE),render progressive shadow_pass occlusion_pass path_tracer whitted \
                   figures models emit)
+	@mkdir -p $B/gallery
 	$(RUN) $B/emit$(EXE) --page $B/gallery/viewer.html tree
 	$(RUN) $B/render$(EXE) --gallery $B/gallery --large
 	$(RUN) $B/progressive$(EXE) primitives $B/gallery/progressive_primitives.png
